@@ -1,0 +1,3 @@
+# Install and export.
+function(_gnomon_install_module name)
+endfunction()
