@@ -1,3 +1,125 @@
-# What every public header must pass.
+# What every public header must pass, beside the module's own tests:
+#   - it compiles alone, and twice in one unit                        NAME_headers (an object per header)
+#   - all of them twice in one program                                NAME_two_units, run as test `NAME.two-units`
+#   - floors 0-1: without exceptions and RTTI, and under each GLM configuration macro that changes types or conventions
+#   - floors 0-1: Clang's front end, where the compiler is GCC and Clang 16 or later is installed
+# Adapters are checked where what they need is installed.
+
+set(GNOMON_GLM_MATRIX
+  "GLM_FORCE_DEFAULT_ALIGNED_GENTYPES,GLM_FORCE_INTRINSICS"
+  "GLM_FORCE_EXPLICIT_CTOR"
+  "GLM_FORCE_XYZW_ONLY"
+  "GLM_FORCE_SIZE_T_LENGTH"
+  "GLM_FORCE_DEPTH_ZERO_TO_ONE,GLM_FORCE_LEFT_HANDED")
+set(GNOMON_USES_EXCEPTIONS check) # a failed REQUIRE leaves its test by an exception
+
+if(GNOMON_BUILD_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT GNOMON_SANITIZE)
+  find_program(GNOMON_CLANG NAMES clang++-19 clang++-18 clang++-17 clang++-16)
+endif()
+
+# _gnomon_unit(FILE DEFINES HEADERS...): writes a unit that includes the headers, twice each.
+function(_gnomon_unit file defines)
+  string(REPLACE "," ";" defines "${defines}")
+  set(text "")
+  foreach(define IN LISTS defines)
+    string(APPEND text "#define ${define}\n")
+  endforeach()
+  foreach(header IN LISTS ARGN ARGN)
+    string(APPEND text "#include <${header}>\n")
+  endforeach()
+  file(CONFIGURE OUTPUT "${file}" CONTENT "${text}" @ONLY)
+endfunction()
+
+# _gnomon_split_headers(): headers and adapters of the module; an adapter whose needs are missing is in neither.
+macro(_gnomon_split_headers)
+  file(GLOB_RECURSE headers RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/include" CONFIGURE_DEPENDS include/*.hpp)
+  set(adapters "")
+  foreach(entry IN LISTS m_ADAPTERS)
+    string(REGEX REPLACE "=.*" "" header "${entry}")
+    set(needs ${m_TEST_PACKAGES} ${m_PACKAGES_OPTIONAL})
+    if(entry MATCHES "=(.*)")
+      string(REPLACE "," ";" needs "${CMAKE_MATCH_1}")
+    endif()
+    list(REMOVE_ITEM headers "${header}")
+    get_property(declared GLOBAL PROPERTY GNOMON_DECLARED)
+    list(REMOVE_ITEM needs ${declared})
+    _gnomon_missing(missing ${needs})
+    if(NOT EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/include/${header}")
+      message(STATUS "gnomon: ${header} is declared but does not exist") # an error of the test over the include graph
+    elseif(missing)
+      message(STATUS "gnomon: ${header} is not checked, for want of ${missing}")
+    else()
+      list(APPEND adapters "${header}")
+    endif()
+  endforeach()
+endmacro()
+
 macro(_gnomon_header_checks)
+  _gnomon_split_headers()
+  if(headers OR adapters)
+    set(folder "${CMAKE_CURRENT_BINARY_DIR}/header_checks")
+    set(units "")
+    foreach(header IN LISTS headers adapters)
+      string(MAKE_C_IDENTIFIER "${header}" id)
+      _gnomon_unit("${folder}/${id}.cpp" "" "${header}")
+      list(APPEND units "${folder}/${id}.cpp")
+    endforeach()
+    if(floor LESS 2 AND headers)
+      _gnomon_matrix_units()
+    endif()
+    add_library(${name}_headers OBJECT ${units})
+    _gnomon_link_tools(${name}_headers)
+    target_compile_options(${name}_headers PRIVATE -O0)
+  endif()
+  if(headers)
+    _gnomon_two_units()
+    if(GNOMON_CLANG AND floor LESS 2)
+      _gnomon_clang_check()
+    endif()
+  endif()
+endmacro()
+
+macro(_gnomon_matrix_units)
+  set(row 0)
+  foreach(defines IN LISTS GNOMON_GLM_MATRIX)
+    math(EXPR row "${row} + 1")
+    _gnomon_unit("${folder}/glm_matrix_${row}.cpp" "${defines}" ${headers})
+    list(APPEND units "${folder}/glm_matrix_${row}.cpp")
+  endforeach()
+  if(NOT name IN_LIST GNOMON_USES_EXCEPTIONS)
+    _gnomon_unit("${folder}/no_exceptions.cpp" "" ${headers})
+    set_source_files_properties("${folder}/no_exceptions.cpp" PROPERTIES COMPILE_OPTIONS "-fno-exceptions;-fno-rtti")
+    list(APPEND units "${folder}/no_exceptions.cpp")
+  endif()
+endmacro()
+
+macro(_gnomon_two_units)
+  _gnomon_unit("${folder}/unit_a.cpp" "" ${headers})
+  _gnomon_unit("${folder}/unit_b.cpp" "" ${headers})
+  file(CONFIGURE OUTPUT "${folder}/unit_main.cpp" CONTENT "int main() { return 0; }\n")
+  add_executable(${name}_two_units "${folder}/unit_a.cpp" "${folder}/unit_b.cpp" "${folder}/unit_main.cpp")
+  gnomon_own_flags(${name}_two_units)
+  target_compile_options(${name}_two_units PRIVATE -O0)
+  # Only what a user gets: no further packages.
+  target_link_libraries(${name}_two_units PRIVATE gnomon::${name})
+  add_test(NAME ${name}.two-units COMMAND ${name}_two_units)
+  set_tests_properties(${name}.two-units PROPERTIES LABELS "house")
+endmacro()
+
+macro(_gnomon_clang_check)
+  file(GLOB_RECURSE all_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp")
+  set(includes "$<TARGET_PROPERTY:${name}_two_units,INCLUDE_DIRECTORIES>")
+  set(include_flags "$<$<BOOL:${includes}>:-I$<JOIN:${includes},;-I>>")
+  set(syntax "${GNOMON_CLANG}" -std=c++20 -fsyntax-only ${GNOMON_WARNINGS} ${GNOMON_FLOAT_FLAGS} -Werror)
+  set(bare -fno-exceptions -fno-rtti)
+  if(name IN_LIST GNOMON_USES_EXCEPTIONS)
+    set(bare "")
+  endif()
+  add_custom_command(OUTPUT "${folder}/clang.stamp"
+    COMMAND ${syntax} "${include_flags}" "${folder}/unit_a.cpp"
+    COMMAND ${syntax} "${include_flags}" ${bare} "${folder}/unit_a.cpp"
+    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/clang.stamp"
+    DEPENDS ${all_headers} "${folder}/unit_a.cpp"
+    COMMENT "Clang reads the headers of ${name}" COMMAND_EXPAND_LISTS VERBATIM)
+  add_custom_target(${name}_clang ALL DEPENDS "${folder}/clang.stamp")
 endmacro()
