@@ -31,6 +31,7 @@ using mat3 = glm::mat<3, 3, float, glm::packed_highp>;
 using mat4 = glm::mat<4, 4, float, glm::packed_highp>;
 using dmat3 = glm::mat<3, 3, double, glm::packed_highp>;
 using dmat4 = glm::mat<4, 4, double, glm::packed_highp>;
+using axis_t = glm::length_t;  ///< What `v[axis]` takes: int, or size_t under GLM_FORCE_SIZE_T_LENGTH.
 
 static_assert(sizeof(vec3) == 12 && alignof(vec3) == 4 && sizeof(vec4) == 16 && alignof(vec4) == 4);
 static_assert(sizeof(dvec3) == 24 && alignof(dvec3) == alignof(double) && sizeof(mat4) == 64 && alignof(mat4) == 4);
@@ -48,8 +49,8 @@ static_assert(sizeof(dvec3) == 24 && alignof(dvec3) == alignof(double) && sizeof
 /// Each element rounded to the nearest float.
 [[nodiscard]] inline mat4 to_float(dmat4 const& m) noexcept {
     mat4 rounded(1.0F);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row) rounded[column][row] = static_cast<float>(m[column][row]);
+    for (axis_t column = 0; column < 4; ++column)
+        for (axis_t row = 0; row < 4; ++row) rounded[column][row] = static_cast<float>(m[column][row]);
     return rounded;
 }
 

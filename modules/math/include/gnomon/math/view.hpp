@@ -139,7 +139,7 @@ struct DepthLine {
     double const oy = (w.top + w.bottom) / (w.top - w.bottom);
     bool const ortho = view.lens == Lens::orthographic;
     dmat4 m(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (axis_t axis = 0; axis < 3; ++axis) {
         double const distance = -view.back[axis];
         m[axis][0] = sx * view.right[axis] + (ortho ? 0.0 : ox * distance);
         m[axis][1] = sy * view.up[axis] + (ortho ? 0.0 : oy * distance);
