@@ -1,0 +1,69 @@
+#pragma once
+// A frame: what one camera sees of one scene under one light, and the exact truth about it. Built once; every technique
+// then decides the same view samples.
+//
+// A view sample is (triangle, float3 position) of a pixel whose centre a triangle covers. [design section 9]
+
+#include <gnomon/core/executor.hpp>
+#include <gnomon/math/bounds.hpp>
+#include <gnomon/math/vec.hpp>
+#include <gnomon/math/view.hpp>
+#include <gnomon/pipeline/error.hpp>
+#include <gnomon/pipeline/light.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+struct Geometry;
+}
+
+namespace gnomon::pipeline {
+
+inline constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
+
+/// One named duration. Names are the program's literals.
+struct StageTime {
+    std::string_view name;
+    double ms = 0.0;
+};
+
+/// The samples of a frame, one entry per covered pixel in row order; every list has `size()` entries.
+struct Samples {
+    std::vector<std::uint32_t> pixel;       ///< y * width + x.
+    std::vector<std::uint32_t> triangle;    ///< Index into the geometry's triangle list.
+    std::vector<math::vec3> position;       ///< Work space: metres from the geometry's origin.
+    std::vector<math::vec3> normal;         ///< Unit geometric normal, toward the eye.
+    std::vector<math::vec3> shading_normal; ///< Unit, interpolated; on the eye's side of the surface.
+    std::vector<math::vec2> uv;             ///< Base colour texture coordinates.
+
+    [[nodiscard]] std::size_t size() const noexcept { return pixel.size(); }
+};
+
+/// expects: `geometry` outlives the frame.
+struct Frame {
+    scene::Geometry const* geometry = nullptr;
+    math::View view;
+    Light light;
+    math::vec3 light_position{0.0F};  ///< Work space, rounded once; point and spot.
+    math::vec3 to_light{0.0F};        ///< Toward a directional light, rounded once; not of unit length.
+    math::Aabb bounds;                ///< Of every finite vertex, work space.
+    Samples samples;
+    std::vector<std::uint32_t> sample_of_pixel;  ///< `no_sample` for the background.
+    std::vector<std::uint8_t> lit;               ///< The truth: 1 lit, 0 in shadow; one per sample.
+    std::uint64_t bad_triangles = 0;             ///< Left out: a vertex is not finite, or an index out of range.
+    std::uint64_t triangles_drawn = 0;           ///< Of the camera pass.
+    std::vector<StageTime> stages;               ///< camera_pass, samples, truth_build, truth_trace.
+};
+
+/// Draws the camera pass, places the view samples and traces the truth.
+///
+/// returns: a frame with no samples when the view sees nothing of the scene; an error for a bad light or view, or for a
+///          geometry without triangles.
+[[nodiscard]] Result<Frame> make_frame(scene::Geometry const& geometry, math::View const& view, Light const& light,
+                                       core::ExecutorRef executor);
+
+}  // namespace gnomon::pipeline

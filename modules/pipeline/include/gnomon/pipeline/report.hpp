@@ -1,0 +1,72 @@
+#pragma once
+// Runs techniques on one frame and gathers what a report needs. JSON and files are written by whoever calls.
+
+#include <gnomon/core/executor.hpp>
+#include <gnomon/pipeline/error.hpp>
+#include <gnomon/pipeline/frame.hpp>
+#include <gnomon/pipeline/image.hpp>
+#include <gnomon/pipeline/measures.hpp>
+#include <gnomon/pipeline/shade.hpp>
+#include <gnomon/pipeline/technique.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// Of the repeats' total times.
+struct Milliseconds {
+    double median = 0.0;
+    double min = 0.0;
+    double max = 0.0;
+};
+
+/// One run of `results.json`: the fields that the pipeline knows. [design section 10]
+struct RunReport {
+    std::string technique;
+    std::string backend = "cpu";
+    std::vector<Params::Value> params;
+    Milliseconds ms;
+    std::vector<StageTime> stages;  ///< Median over the repeats, stage by stage.
+    Measures error;
+    std::vector<Count> counts;
+    std::vector<Count> bytes;
+    Image lit;      ///< The picture with this technique's shadows.
+    Image overlay;  ///< Wrong samples in two colours.
+};
+
+struct RunRequest {
+    Technique const* technique = nullptr;
+    Params params;
+};
+
+/// Called between runs, from the calling thread.
+///
+/// `done` of `total` steps are finished; `what` is about to run.
+struct Progress {
+    void (*report)(void* context, int done, int total, std::string_view what) = nullptr;
+    void* context = nullptr;
+};
+
+struct CompareConfig {
+    int repeats = 1;      ///< Timed runs of each request; at least 1.
+    bool images = true;   ///< Fill `lit` and `overlay`.
+    ShadeConfig shading;
+    Progress progress;
+};
+
+struct Comparison {
+    std::vector<RunReport> runs;  ///< In the order of the requests.
+    Image exact;                  ///< The picture with the true shadows, if images are asked for.
+    std::uint64_t samples = 0;
+    std::uint64_t truly_lit = 0;
+};
+
+/// Runs every request on `frame` and measures it against the truth.
+///
+/// returns: the first failure of a technique, or a report for each request.
+[[nodiscard]] Result<Comparison> compare(Frame const& frame, std::span<RunRequest const> requests,
+                                         CompareConfig const& config, core::ExecutorRef executor);
+
+}  // namespace gnomon::pipeline
