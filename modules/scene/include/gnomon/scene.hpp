@@ -1,0 +1,9 @@
+#pragma once
+// All of scene.
+
+#include <gnomon/scene/flatten.hpp>
+#include <gnomon/scene/load.hpp>
+#include <gnomon/scene/procedural.hpp>
+#include <gnomon/scene/scene.hpp>
+#include <gnomon/scene/suggest.hpp>
+#include <gnomon/scene/write.hpp>
