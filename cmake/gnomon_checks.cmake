@@ -11,7 +11,6 @@ set(GNOMON_GLM_MATRIX
   "GLM_FORCE_XYZW_ONLY"
   "GLM_FORCE_SIZE_T_LENGTH"
   "GLM_FORCE_DEPTH_ZERO_TO_ONE,GLM_FORCE_LEFT_HANDED")
-set(GNOMON_USES_EXCEPTIONS check) # a failed REQUIRE leaves its test by an exception
 
 if(GNOMON_BUILD_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT GNOMON_SANITIZE)
   find_program(GNOMON_CLANG NAMES clang++-19 clang++-18 clang++-17 clang++-16)
@@ -96,11 +95,9 @@ macro(_gnomon_matrix_units)
     _gnomon_unit("${folder}/glm_matrix_${row}.cpp" "${defines}" ${headers})
     list(APPEND units "${folder}/glm_matrix_${row}.cpp")
   endforeach()
-  if(NOT name IN_LIST GNOMON_USES_EXCEPTIONS)
-    _gnomon_unit("${folder}/no_exceptions.cpp" "" ${headers})
-    set_source_files_properties("${folder}/no_exceptions.cpp" PROPERTIES COMPILE_OPTIONS "-fno-exceptions;-fno-rtti")
-    list(APPEND units "${folder}/no_exceptions.cpp")
-  endif()
+  _gnomon_unit("${folder}/no_exceptions.cpp" "" ${headers})
+  set_source_files_properties("${folder}/no_exceptions.cpp" PROPERTIES COMPILE_OPTIONS "-fno-exceptions;-fno-rtti")
+  list(APPEND units "${folder}/no_exceptions.cpp")
 endmacro()
 
 macro(_gnomon_two_units)
@@ -121,13 +118,9 @@ macro(_gnomon_clang_check)
   set(includes "$<TARGET_PROPERTY:${name}_two_units,INCLUDE_DIRECTORIES>")
   set(include_flags "$<$<BOOL:${includes}>:-I$<JOIN:${includes},;-I>>")
   set(syntax "${GNOMON_CLANG}" -std=c++20 -fsyntax-only ${GNOMON_WARNINGS} ${GNOMON_FLOAT_FLAGS} -Werror)
-  set(bare -fno-exceptions -fno-rtti)
-  if(name IN_LIST GNOMON_USES_EXCEPTIONS)
-    set(bare "")
-  endif()
   add_custom_command(OUTPUT "${folder}/clang.stamp"
     COMMAND ${syntax} "${include_flags}" "${folder}/unit_a.cpp"
-    COMMAND ${syntax} "${include_flags}" ${bare} "${folder}/unit_a.cpp"
+    COMMAND ${syntax} "${include_flags}" -fno-exceptions -fno-rtti "${folder}/unit_a.cpp"
     COMMAND ${CMAKE_COMMAND} -E touch "${folder}/clang.stamp"
     DEPENDS ${all_headers} "${folder}/unit_a.cpp"
     COMMENT "Clang reads the headers of ${name}" COMMAND_EXPAND_LISTS VERBATIM)

@@ -174,7 +174,7 @@ function(gnomon_test_executable target)
       message(FATAL_ERROR "gnomon: GNOMON_TESTS_WITH_CATCH2 needs Catch2 (Debian: catch2)")
     endif()
     target_link_libraries(${target} PRIVATE ${GNOMON_Catch2_TARGET})
-    target_compile_definitions(${target} PRIVATE GNOMON_CHECK_WITH_CATCH2=1)
+    target_compile_definitions(${target} PRIVATE GNOMON_CHECK_USE_CATCH2=1)
   endif()
 endfunction()
 
