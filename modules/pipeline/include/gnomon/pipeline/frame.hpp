@@ -10,16 +10,14 @@
 #include <gnomon/math/view.hpp>
 #include <gnomon/pipeline/error.hpp>
 #include <gnomon/pipeline/light.hpp>
+#include <gnomon/scene/flatten.hpp>
+#include <gnomon/scene/scene.hpp>
 
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
-
-namespace gnomon::scene {
-struct Geometry;
-}
 
 namespace gnomon::pipeline {
 
@@ -43,8 +41,9 @@ struct Samples {
     [[nodiscard]] std::size_t size() const noexcept { return pixel.size(); }
 };
 
-/// expects: `geometry` outlives the frame.
+/// expects: `scene` and `geometry` outlive the frame.
 struct Frame {
+    scene::Scene const* scene = nullptr;
     scene::Geometry const* geometry = nullptr;
     math::View view;
     Light light;
@@ -61,9 +60,10 @@ struct Frame {
 
 /// Draws the camera pass, places the view samples and traces the truth.
 ///
+/// expects: `geometry` is `flatten`ed from `scene`.
 /// returns: a frame with no samples when the view sees nothing of the scene; an error for a bad light or view, or for a
 ///          geometry without triangles.
-[[nodiscard]] Result<Frame> make_frame(scene::Geometry const& geometry, math::View const& view, Light const& light,
-                                       core::ExecutorRef executor);
+[[nodiscard]] Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry,
+                                       math::View const& view, Light const& light, core::ExecutorRef executor);
 
 }  // namespace gnomon::pipeline

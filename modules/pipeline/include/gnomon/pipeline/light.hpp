@@ -1,38 +1,26 @@
 #pragma once
-// A light as the pipeline takes it: one sun, one bulb or one spot, in world metres.
+// The light of a frame: a scene's own kind, whether it comes from a file or from a command line.
 
 #include <gnomon/math/vec.hpp>
 #include <gnomon/pipeline/error.hpp>
+#include <gnomon/scene/scene.hpp>
 
-#include <cstdint>
 #include <limits>
 
 namespace gnomon::pipeline {
 
-enum class LightKind : std::uint8_t {
-    directional,
-    point,
-    spot,
-};
+using Light = scene::Light;
+using LightKind = scene::LightKind;
 
-struct Light {
-    LightKind kind = LightKind::directional;
-    math::dvec3 position_m{0.0, 0.0, 0.0};     ///< Point and spot.
-    math::dvec3 direction{-0.45, -0.8, -0.4};  ///< The way the light travels, any length above 0; directional and spot.
-    math::vec3 color{1.0F, 1.0F, 1.0F};        ///< Linear RGB times intensity; pictures choose their exposure by it.
-    double range_m = std::numeric_limits<double>::infinity();  ///< Point and spot: nothing is lit beyond.
-    double inner_cone_rad = 0.0;                               ///< Spot: half angle of full light.
-    double outer_cone_rad = 0.7853981633974483;                ///< Spot: half angle where the light ends.
-};
-
+/// A white sun that shines along `direction`, of any length above 0.
 [[nodiscard]] inline Light sun(math::dvec3 const& direction) {
     Light light;
     light.direction = direction;
     return light;
 }
 
-[[nodiscard]] inline Light bulb(math::dvec3 const& position_m,
-                                double range_m = std::numeric_limits<double>::infinity()) {
+/// A white light in all directions.
+[[nodiscard]] inline Light bulb(math::dvec3 const& position_m, float range_m = std::numeric_limits<float>::infinity()) {
     Light light;
     light.kind = LightKind::point;
     light.position_m = position_m;
