@@ -1,0 +1,28 @@
+#pragma once
+// index.html: one file with everything in it, for someone who has never heard of the project.
+
+#include "image_io.hpp"
+#include "report.hpp"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::command {
+
+/// PNG bytes of one run, made once for the folder and the page.
+struct RunPictures {
+    Bytes lit;
+    Bytes overlay;
+};
+
+struct ReportPictures {
+    Bytes exact;
+    std::vector<RunPictures> runs;  ///< One for each run of the report.
+};
+
+/// The whole page: style, pictures as data URIs, plot, table; nothing is loaded from elsewhere.
+///
+/// expects: `pictures.runs` has one entry a run.
+[[nodiscard]] std::string page_html(Report const& report, ReportPictures const& pictures);
+
+}  // namespace gnomon::command

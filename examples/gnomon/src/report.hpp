@@ -1,0 +1,62 @@
+#pragma once
+// What one command found out: everything that the table, the page and results.json show.
+
+#include <gnomon/pipeline/frame.hpp>
+#include <gnomon/pipeline/image.hpp>
+#include <gnomon/pipeline/report.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::command {
+
+struct Machine {
+    std::string cpu;
+    int logical_cores = 1;
+    std::string simd;      ///< What the processor has, of what the library could use.
+    std::string system;    ///< "Linux 6.1.0 x86_64".
+    std::string compiler;  ///< "GCC 12.2.0".
+    std::string build;     ///< "Release".
+};
+
+[[nodiscard]] Machine this_machine();
+
+/// One run with the names that people and files call it by.
+struct Run {
+    std::string label;  ///< "shadow-map resolution=512": the technique and what the user set.
+    std::string slug;   ///< The same as a file name without extension; unique in its report.
+    pipeline::RunReport result;
+};
+
+/// One line of the page's facts.
+struct Fact {
+    std::string name;
+    std::string value;
+};
+
+struct Report {
+    std::string command;  ///< As typed, for whoever wants to repeat it.
+    std::string scene;    ///< A built-in name with its options, or the file's name.
+    std::string view;     ///< As options that give the same view again.
+    std::string light;    ///< As options, or which of the file's lights.
+    std::vector<Fact> facts;
+    math::ivec2 size_px{0, 0};
+    std::uint64_t triangles = 0;
+    std::uint64_t samples = 0;
+    std::uint64_t truly_lit = 0;
+    int threads = 1;
+    int repeats = 1;
+    Machine machine;
+    std::vector<Run> runs;
+    pipeline::Image exact;
+};
+
+/// Milliseconds of the `ray` run, the peer that every time is shown beside.
+[[nodiscard]] std::optional<double> ray_ms(Report const& report);
+
+/// How many times as fast as the `ray` run of the same command; nothing without one.
+[[nodiscard]] std::optional<double> speed_over_ray(Report const& report, Run const& run);
+
+}  // namespace gnomon::command

@@ -1,0 +1,63 @@
+#include "table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::command {
+
+std::string grouped(std::uint64_t value) {
+    std::string text = std::to_string(value);
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+    return text;
+}
+
+std::string figures(double value) {
+    if (std::isnan(value)) return "-";
+    if (std::isinf(value)) return "inf";
+    double const size = std::abs(value);
+    if (size == 0.0) return "0";
+    if (size >= 99.95) return fmt::format("{:.0f}", value);
+    // Digits after the point that leave three figures.
+    int const digits = 2 - static_cast<int>(std::floor(std::log10(size)));
+    return fmt::format("{:.{}f}", value, std::clamp(digits, 0, 12));
+}
+
+std::string percent(double fraction) { return figures(fraction * 100.0); }
+
+std::string aligned(std::vector<std::vector<std::string>> const& rows, bool bold_first_row) {
+    std::vector<std::size_t> widths;
+    for (auto const& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    std::string text;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        std::string line;
+        for (std::size_t i = 0; i < rows[r].size(); ++i)
+            line += i == 0 ? fmt::format("{:<{}}", rows[r][i], widths[i]) : fmt::format("  {:>{}}", rows[r][i], widths[i]);
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += bold_first_row && r == 0 ? "\x1b[1m" + line + "\x1b[0m\n" : line + '\n';
+    }
+    return text;
+}
+
+std::string table_text(Report const& report, bool styled) {
+    double const lit = report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
+    std::string text = fmt::format("{}: {} triangles, {} samples in {}x{} px, {:.1f} % truly lit, {} threads\n{}   {}\n\n",
+                                   report.scene, grouped(report.triangles), grouped(report.samples), report.size_px.x,
+                                   report.size_px.y, lit * 100.0, report.threads, report.view, report.light);
+    std::vector<std::vector<std::string>> rows = {
+        {"run", "wrong %", "false-lit", "false-shadow", "edge px mean", "max", "ms", "speed / ray"}};
+    for (Run const& run : report.runs) {
+        pipeline::Measures const& error = run.result.error;
+        auto const speed = speed_over_ray(report, run);
+        rows.push_back({run.label, percent(error.wrong_fraction), grouped(error.false_lit), grouped(error.false_shadow),
+                        figures(error.edge_px.mean), figures(error.edge_px.max), figures(run.result.ms.median),
+                        speed ? figures(*speed) : "-"});
+    }
+    return text + aligned(rows, styled);
+}
+
+}  // namespace gnomon::command
