@@ -15,7 +15,7 @@ using math::View;
 
 TEST_CASE("a point is inside the planes exactly when it projects into the image and the depth range",
           "[math][frustum][property]") {
-    auto const around = check::doubles(-0.5, 1.5);
+    auto const around = check::floats(-0.5, 1.5);
     check::for_all(math::views(), around, around, around, [](View const& view, double x, double y, double along) {
         double const far_m = math::is_finite(view.far_m) ? view.far_m : view.near_m * 100.0;
         double const distance = view.near_m + (far_m - view.near_m) * along;
@@ -31,7 +31,7 @@ TEST_CASE("a point is inside the planes exactly when it projects into the image 
 }
 
 TEST_CASE("a box with a visible point is never rejected", "[math][frustum][property]") {
-    auto const within = check::doubles(0.0, 1.0);
+    auto const within = check::floats(0.0, 1.0);
     check::for_all(check::cases(5000), math::views(), within, within, within, check::floats(0.0F, 10.0F),
                    [](View const& view, double x, double y, double along, float size) {
                        double const far_m = math::is_finite(view.far_m) ? view.far_m : view.near_m * 100.0;

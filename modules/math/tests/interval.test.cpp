@@ -19,7 +19,7 @@ Interval ordered(float a, float b) { return a <= b ? Interval{a, b} : Interval{b
 }  // namespace
 
 TEST_CASE("sums, differences and products hold the exact result of any members", "[math][interval][property]") {
-    check::for_all(check::cases(20'000), check::any_float(), check::any_float(), check::any_float(), check::any_float(),
+    check::for_all(check::cases(20'000), check::any_float<float>(), check::any_float<float>(), check::any_float<float>(), check::any_float<float>(),
                    [](float a, float b, float c, float d) {
                        Interval const x = ordered(a, b);
                        Interval const y = ordered(c, d);
@@ -31,7 +31,7 @@ TEST_CASE("sums, differences and products hold the exact result of any members",
 }
 
 TEST_CASE("a quotient holds the exact result, and there is none by an interval with zero", "[math][interval][property]") {
-    check::for_all(check::cases(20'000), check::any_float(), check::any_float(), check::any_float(),
+    check::for_all(check::cases(20'000), check::any_float<float>(), check::any_float<float>(), check::any_float<float>(),
                    [](float a, float c, float d) {
                        Interval const y = ordered(c, d);
                        auto const q = math::try_divide(Interval::exactly(a), y);

@@ -38,7 +38,7 @@ void compare_with_scalar(std::array<float, 16> const& x, std::array<float, 16> c
 }  // namespace
 
 TEST_CASE("lanes of every width give the scalar's bits", "[math][lanes][property]") {
-    auto const sixteen = check::array_of<16>(check::any_float());
+    auto const sixteen = check::array_of<16>(check::any_float<float>());
     check::for_all(sixteen, sixteen, [](std::array<float, 16> const& x, std::array<float, 16> const& y) {
         compare_with_scalar<2>(x, y);
         compare_with_scalar<4>(x, y);

@@ -25,7 +25,7 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 }  // namespace
 
 TEST_CASE("Morton codes interleave their coordinates bit by bit", "[math][morton][property]") {
-    auto const number = check::integers<std::uint32_t>(0, (1U << 21U) - 1U);
+    auto const number = check::integers<std::uint32_t>(0U, (1U << 21U) - 1U);
     check::for_all(number, number, number, [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
         CHECK(math::morton_63(x, y, z) == interleaved(x, y, z, 21));
         CHECK(math::morton_30(x & 1023U, y & 1023U, z & 1023U) == interleaved(x, y, z, 10));
@@ -33,14 +33,14 @@ TEST_CASE("Morton codes interleave their coordinates bit by bit", "[math][morton
 }
 
 TEST_CASE("a grid cell is in range for any box and any point", "[math][morton][property]") {
-    check::for_all(math::boxes(), check::any_float().with_nan().with_inf(), [](Aabb const& box, float x) {
+    check::for_all(math::boxes(), check::any_float<float>().with_nan().with_inf(), [](Aabb const& box, float x) {
         math::uvec3 const cell = math::grid_cell(box, vec3(x, -x, x), 1024);
         CHECK((cell.x < 1024 && cell.y < 1024 && cell.z < 1024));
     });
 }
 
 TEST_CASE("a grid cell never decreases along an axis", "[math][morton][property]") {
-    check::for_all(math::boxes(), check::any_float(), check::any_float(), [](Aabb const& box, float a, float b) {
+    check::for_all(math::boxes(), check::any_float<float>(), check::any_float<float>(), [](Aabb const& box, float a, float b) {
         auto const lower = math::grid_cell(box, vec3(a < b ? a : b), 1024);
         auto const upper = math::grid_cell(box, vec3(a < b ? b : a), 1024);
         CHECK((lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z));

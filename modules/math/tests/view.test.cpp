@@ -40,7 +40,7 @@ TEST_CASE("depth is 0 and 1 at the ends of the range, the other way round when r
 }
 
 TEST_CASE("distance_from_depth undoes depth_from_distance", "[math][view][property]") {
-    check::for_all(math::views(), check::doubles(0.0, 1.0), [](View const& view, double along) {
+    check::for_all(math::views(), check::floats(0.0, 1.0), [](View const& view, double along) {
         double const far_m = math::is_finite(view.far_m) ? view.far_m : view.near_m * 1000.0;
         double const distance = view.near_m + (far_m - view.near_m) * along;
         double const depth = math::depth_from_distance(view, distance);
@@ -52,7 +52,7 @@ TEST_CASE("distance_from_depth undoes depth_from_distance", "[math][view][proper
 }
 
 TEST_CASE("a pixel's ray projects back onto the pixel at every distance", "[math][view][property]") {
-    check::for_all(math::views(), check::doubles(0.0, 1.0), check::doubles(0.0, 1.0), check::doubles(1.0, 1000.0),
+    check::for_all(math::views(), check::floats(0.0, 1.0), check::floats(0.0, 1.0), check::floats(1.0, 1000.0),
                    [](View const& view, double x, double y, double distance) {
                        dvec2 const px(x * view.size_px.x, y * view.size_px.y);
                        math::PixelRay const ray = math::pixel_ray(view, px);
@@ -64,7 +64,7 @@ TEST_CASE("a pixel's ray projects back onto the pixel at every distance", "[math
 }
 
 TEST_CASE("the clip matrix agrees with project", "[math][view][property]") {
-    check::for_all(math::views(), check::doubles(0.05, 0.95), check::doubles(0.05, 0.95), check::doubles(0.1, 0.9),
+    check::for_all(math::views(), check::floats(0.05, 0.95), check::floats(0.05, 0.95), check::floats(0.1, 0.9),
                    [](View const& view, double x, double y, double along) {
                        double const far_m = math::is_finite(view.far_m) ? view.far_m : view.near_m * 100.0;
                        double const distance = view.near_m + (far_m - view.near_m) * along;
@@ -107,7 +107,7 @@ TEST_CASE("a light straight overhead has a frame", "[math][view]") {
 }
 
 TEST_CASE("jitter moves the image by fractions of a pixel", "[math][view][property]") {
-    check::for_all(math::views(), check::doubles(-1.0, 1.0), check::doubles(-1.0, 1.0),
+    check::for_all(math::views(), check::floats(-1.0, 1.0), check::floats(-1.0, 1.0),
                    [](View const& view, double dx, double dy) {
                        math::PixelRay const ray = math::pixel_ray(view, dvec2(1.0, 2.0));
                        dvec3 const moved = math::project(math::jittered(view, dvec2(dx, dy)), ray.start_m + ray.step * 2.0);
