@@ -21,6 +21,10 @@ if(GNOMON_WERROR)
   list(APPEND GNOMON_OWN_FLAGS -Werror)
 endif()
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND GNOMON_OWN_FLAGS -Wno-restrict) # false for "text" + std::string: GCC bug 105651
+endif()
+
 set(GNOMON_INSTRUMENT_FLAGS "")
 if(GNOMON_SANITIZE)
   string(REPLACE ";" "," _sanitizers "${GNOMON_SANITIZE}")
