@@ -1,0 +1,105 @@
+#pragma once
+// What is drawn: triangles in the caller's own buffers, a matrix, and nothing copied.
+
+#include <gnomon/core/strided_span.hpp>
+#include <gnomon/math/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gnomon::raster {
+
+/// Which triangles are left out by the way they face. Front: counter-clockwise as seen in the image (y down, as looked
+/// at), which is glTF's counter-clockwise from outside.
+enum class Cull : std::uint8_t {
+    none,
+    back,
+    front,
+};
+
+/// 16- or 32-bit indices, three for each triangle; without any, positions come in threes as they lie.
+class IndexSpan {
+public:
+    constexpr IndexSpan() noexcept = default;
+    constexpr IndexSpan(std::span<std::uint32_t const> wide) noexcept  // NOLINT: converts as spans do
+        : wide_(wide.data()), size_(wide.size()) {}
+    constexpr IndexSpan(std::span<std::uint16_t const> narrow) noexcept  // NOLINT
+        : narrow_(narrow.data()), size_(narrow.size()) {}
+
+    [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] constexpr bool empty() const noexcept { return size_ == 0; }
+    /// The 32-bit indices, or null when they have 16 bits or there are none.
+    [[nodiscard]] constexpr std::uint32_t const* wide() const noexcept { return wide_; }
+    [[nodiscard]] constexpr std::uint16_t const* narrow() const noexcept { return narrow_; }
+    [[nodiscard]] constexpr std::uint32_t operator[](std::size_t i) const noexcept {
+        return wide_ != nullptr ? wide_[i] : narrow_[i];
+    }
+
+private:
+    std::uint32_t const* wide_ = nullptr;
+    std::uint16_t const* narrow_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// How a texture coordinate outside [0, 1] finds its texel.
+enum class Wrap : std::uint8_t {
+    repeat,
+    mirror,
+    clamp,
+};
+
+/// The 8-bit alpha channel of a texture: mip 0. One byte per texel, `stride_bytes` from texel to texel, so the alpha
+/// of an interleaved RGBA image is a view of it.
+struct AlphaTexture {
+    std::uint8_t const* alpha = nullptr;
+    std::int32_t width = 0;
+    std::int32_t height = 0;
+    std::ptrdiff_t stride_bytes = 1;
+    std::ptrdiff_t row_bytes = 0;
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+};
+
+/// Makes a draw's triangles holes where their alpha is below the cutoff: mip 0, bilinear, >= cutoff, in double.
+struct AlphaTest {
+    core::StridedSpan<math::vec2> uv;  ///< One for each position.
+    AlphaTexture texture;
+    double factor = 1.0;  ///< Multiplies the texture's alpha (glTF: baseColorFactor's).
+    double cutoff = 0.5;
+};
+
+/// Triangles to draw. Corner positions become `clip_from_relative * (position - origin, 1)`, both steps in float.
+struct Draw {
+    core::StridedSpan<math::vec3> positions;
+    IndexSpan indices;
+    math::vec3 origin{0.0F, 0.0F, 0.0F};
+    math::mat4 clip_from_relative{1.0F};
+    std::uint32_t first_triangle = 0;  ///< Id of the draw's first triangle in a visibility target.
+    Cull cull = Cull::none;
+    AlphaTest const* alpha_test = nullptr;  ///< Null draws solid triangles. Must outlive the pass.
+};
+
+/// What is wrong with a draw's data. A pass leaves such triangles out and counts them; nothing here is fatal.
+struct DrawFaults {
+    std::uint64_t bad_index_triangles = 0;   ///< With an index at or beyond `positions.size()`.
+    std::uint64_t not_finite_positions = 0;  ///< With a NaN or an infinity.
+    std::uint32_t loose_indices = 0;         ///< 1 or 2 left over at the end, which make no triangle.
+    bool uv_missing = false;                 ///< An alpha test with fewer coordinates than positions, or no texture.
+
+    [[nodiscard]] bool any() const noexcept {
+        return bad_index_triangles != 0 || not_finite_positions != 0 || loose_indices != 0 || uv_missing;
+    }
+};
+
+/// Number of whole triangles of the draw.
+[[nodiscard]] inline std::size_t triangle_count(Draw const& draw) noexcept {
+    return (draw.indices.empty() ? draw.positions.size() : draw.indices.size()) / 3;
+}
+
+/// Reads all of a draw's data once and says what a pass would leave out.
+///
+/// cost: O(positions + indices).
+[[nodiscard]] DrawFaults validate(Draw const& draw) noexcept;
+
+}  // namespace gnomon::raster

@@ -1,0 +1,95 @@
+#pragma once
+// The pure pieces of the rasterizer: clip, snap, cover, depth. What the kernels do is defined here, one sample at a time.
+//
+// Fixed-point image coordinates: 256 units to a pixel, y down; the sample of pixel (x, y) is at (256x + 128, 256y + 128).
+
+#include <gnomon/math/vec.hpp>
+#include <gnomon/raster/target.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace gnomon::raster {
+
+inline constexpr std::int32_t subpixel_units = 256;
+inline constexpr float max_clip_coordinate = 1.152921504606846976e18F;  ///< 2^60; a corner beyond is "not finite".
+inline constexpr float min_w = 5.9604644775390625e-8F;                  ///< 2^-24; w below is clipped in any depth range.
+
+/// How clip space lands in the image.
+struct ViewportTransform {
+    float half_width_px;
+    float half_height_px;
+    std::int32_t offset_x;  ///< Of the viewport's top left, in units of 1/256 pixel.
+    std::int32_t offset_y;
+    float guard_x;  ///< |x| > guard_x * w is clipped: the guard band.
+    float guard_y;
+    bool clip_depth;  ///< Whether 0 <= z <= w is clipped too.
+};
+
+/// expects: sizes in [1, max_size_px], offsets within +-max_size_px.
+/// returns: a guard band that keeps snapped coordinates within 2^24, three or more viewports wide.
+[[nodiscard]] ViewportTransform make_viewport(Rect const& viewport, bool clip_depth) noexcept;
+
+/// A convex polygon in clip space; empty when nothing is left.
+struct ClipPolygon {
+    std::array<math::vec4, 10> corner;
+    int count = 0;
+};
+
+/// Bits of the planes that `clip` is outside of (0: inside all). Bit 7: not finite, or beyond `max_clip_coordinate`.
+[[nodiscard]] std::uint32_t outcode(math::vec4 const& clip, ViewportTransform const& viewport) noexcept;
+
+/// Cuts a triangle to w >= min_w, the depth range and the guard band, in homogeneous space.
+///
+/// A cut edge is interpolated from its inside to its outside corner, in double: the two triangles that share an edge
+/// get the same corner whatever their order, so a clipped surface has no cracks.
+///
+/// expects: three finite corners (`outcode` without bit 7).
+[[nodiscard]] ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners, ViewportTransform const& viewport) noexcept;
+
+/// A corner in the image: fixed point, and z / w.
+struct SnappedVertex {
+    std::int32_t x;
+    std::int32_t y;
+    float z;
+
+    friend bool operator==(SnappedVertex const&, SnappedVertex const&) noexcept = default;
+};
+
+/// Projects and rounds to the nearest 1/256 pixel, ties to even, as Vulkan's devices do.
+///
+///     r = 1 / w;  x = rne(256 * (x_clip * r * half_width + half_width)) + offset_x;  z = z_clip * r
+///
+/// expects: `outcode` 0. With `clip_depth`, z is clamped to [0, 1] (it may be one ulp beyond).
+[[nodiscard]] SnappedVertex snap(math::vec4 const& clip, ViewportTransform const& viewport) noexcept;
+
+using SnappedTriangle = std::array<SnappedVertex, 3>;
+
+/// Twice the area in units of 1/65536 pixel; positive when clockwise as seen (y down): back-facing.
+[[nodiscard]] constexpr std::int64_t doubled_area(SnappedTriangle const& t) noexcept {
+    std::int64_t const ax = std::int64_t{t[1].x} - t[0].x;
+    std::int64_t const ay = std::int64_t{t[1].y} - t[0].y;
+    std::int64_t const bx = std::int64_t{t[2].x} - t[0].x;
+    std::int64_t const by = std::int64_t{t[2].y} - t[0].y;
+    return ax * by - bx * ay;
+}
+
+/// Whether the triangle covers the centre of pixel (x, y): exact, with the top-left rule, for either winding.
+///
+/// expects: coordinates within 2^24, pixels within 2^15.
+[[nodiscard]] bool covers(SnappedTriangle const& triangle, std::int32_t x, std::int32_t y) noexcept;
+
+/// Depth of the triangle at the centre of pixel (x, y), as every kernel computes it. Not clamped to [0, 1].
+///
+///     z = z0 + E1 g1 + E2 g2,  g_i = (z_i - z0) / doubled area,  corner 0 the one with the least z
+///
+/// E are the exact integer edge functions, all terms but z0 are >= 0 inside: nothing cancels. With e = 2^-24:
+/// E rounds to float (e), g (e), their product (e), the sum (e), z0 with its fractions (e), the last sum (e); so
+///
+///     |z - exact| <= 5e |exact - z0| + 2e max(|z0|, |exact|)         (1)
+///
+/// which is at most 7e |exact|, 5 ulps, where no z is negative.
+/// expects: an area that is not 0, and `covers(triangle, x, y)`.
+[[nodiscard]] float depth_at(SnappedTriangle const& triangle, std::int32_t x, std::int32_t y) noexcept;
+
+}  // namespace gnomon::raster
