@@ -1,0 +1,200 @@
+#include "options.hpp"
+
+#include "raw_options.hpp"
+#include "values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <thread>
+
+namespace gnomon::command {
+
+namespace {
+
+constexpr double anything = std::numeric_limits<double>::max();
+constexpr RealRange any_metres{-anything, anything, "m"};
+constexpr RealRange positive_metres{1e-9, 1e12, "m"};
+constexpr IntegerRange thread_range{1, 1024};
+constexpr IntegerRange repeat_range{1, 1000};
+constexpr IntegerRange triangle_range{1, 1 << 25};
+constexpr IntegerRange block_range{1, 1 << 20};
+constexpr IntegerRange seed_range{0, std::numeric_limits<std::uint32_t>::max()};
+
+/// Reads `text`, if given, into `target`; the first failure stays in `error`.
+template <class T, class Target, class Read>
+void take(std::optional<std::string> const& text, Target& target, std::optional<core::Failure<Exit>>& error, Read read) {
+    if (!text || error) return;
+    Outcome<T> value = read(*text);
+    if (value)
+        target = static_cast<std::conditional_t<std::is_arithmetic_v<Target>, Target, T>>(value.value());
+    else
+        error = std::move(value).failure();
+}
+
+Outcome<SceneOptions> scene_options(RawOptions const& raw) {
+    SceneOptions options;
+    options.config.name = raw.scene;
+    std::optional<core::Failure<Exit>> error;
+    auto const integer = [&](char const* name, std::optional<std::string> const& text, auto& target, IntegerRange range) {
+        if (text && !options.tuned_by) options.tuned_by = name;
+        take<std::int64_t>(text, target, error, [&](std::string const& t) { return read_integer(name, t, range); });
+    };
+    integer("--triangles", raw.triangles, options.config.triangles, triangle_range);
+    integer("--blocks", raw.blocks, options.config.blocks, block_range);
+    integer("--seed", raw.seed, options.config.seed, seed_range);
+    if (raw.offset && !options.tuned_by) options.tuned_by = "--offset";
+    take<double>(raw.offset, options.config.offset_m, error,
+                 [](std::string const& t) { return read_real("--offset", t, any_metres); });
+    if (error) return *error;
+    return options;
+}
+
+Outcome<ViewOptions> view_options(RawOptions const& raw) {
+    ViewOptions view;
+    std::optional<core::Failure<Exit>> error;
+    auto const vector = [&](char const* name, auto const& text, auto& target) {
+        take<math::dvec3>(text, target, error, [&](std::string const& t) { return read_vector(name, t); });
+    };
+    auto const real = [&](char const* name, auto const& text, auto& target, RealRange const& range) {
+        take<double>(text, target, error, [&](std::string const& t) { return read_real(name, t, range); });
+    };
+    vector("--eye", raw.eye, view.eye_m);
+    vector("--look", raw.look, view.look_m);
+    real("--fov", raw.fov, view.fov_deg, {0.01, 179.0, "degrees"});
+    real("--near", raw.near, view.near_m, positive_metres);
+    real("--far", raw.far, view.far_m, positive_metres);
+    take<math::ivec2>(raw.size, view.size_px, error, [](std::string const& t) { return read_size("--size", t); });
+    if (error) return *error;
+    view.camera = raw.camera;
+    if (raw.eye.has_value() != raw.look.has_value())
+        return usage_error(fmt::format("{} {}: give --eye and --look together", raw.eye ? "--eye" : "--look",
+                                       raw.eye ? *raw.eye : *raw.look));
+    if (raw.camera && raw.eye)
+        return usage_error(fmt::format("--camera {} and --eye {}: give one of them", *raw.camera, *raw.eye));
+    if (raw.fov && !raw.eye) return usage_error(fmt::format("--fov {}: it goes with --eye and --look; add them", *raw.fov));
+    if (view.eye_m && *view.eye_m == *view.look_m)
+        return usage_error(fmt::format("--eye {} and --look {}: they are the same point; move one of them", *raw.eye, *raw.look));
+    if (view.near_m && view.far_m && *view.near_m >= *view.far_m)
+        return usage_error(fmt::format("--near {} and --far {}: near must be less than far", *raw.near, *raw.far));
+    return view;
+}
+
+Outcome<PointOption> read_point(std::string const& text) {
+    std::vector<std::string> const parts = split(text, ',');
+    if (parts.size() != 3 && parts.size() != 4)
+        return usage_error(fmt::format("--point {}: give x,y,z or x,y,z,range in metres", text));
+    PointOption point;
+    auto position = read_vector("--point", parts[0] + ',' + parts[1] + ',' + parts[2]);
+    if (!position) return std::move(position).failure();
+    point.position_m = *position;
+    if (parts.size() == 3) return point;
+    auto const range = real_from(parts[3]);
+    if (!range || !(*range > 0.0))
+        return usage_error(fmt::format("--point {}: the range {} must be a number of metres above 0", text, parts[3]));
+    point.range_m = *range;
+    return point;
+}
+
+Outcome<LightOptions> light_options(RawOptions const& raw) {
+    LightOptions light;
+    std::vector<std::string> given;
+    for (auto const& [name, text] : {std::pair{"--sun", &raw.sun}, {"--point", &raw.point}, {"--light", &raw.light}})
+        if (*text) given.push_back(fmt::format("{} {}", name, **text));
+    if (given.size() > 1) return usage_error(join(given, " and ") + ": a run has one light; give one of them");
+    std::optional<core::Failure<Exit>> error;
+    take<math::dvec3>(raw.sun, light.sun, error, [](std::string const& t) { return read_vector("--sun", t); });
+    take<PointOption>(raw.point, light.point, error, read_point);
+    if (error) return *error;
+    if (light.sun && *light.sun == math::dvec3(0.0))
+        return usage_error(fmt::format("--sun {}: a direction of zero length points nowhere; give the way light travels, "
+                                       "such as --sun -0.45,-0.8,-0.4", *raw.sun));
+    light.name = raw.light;
+    return light;
+}
+
+Outcome<ParamOption> read_param(std::string const& text) {
+    std::size_t const equals = text.find('=');
+    std::size_t const dot = text.find('.');
+    bool const whole = equals != std::string::npos && dot != std::string::npos && dot > 0 && dot + 1 < equals;
+    if (!whole)
+        return usage_error(fmt::format("--param {}: give technique.name=value, such as --param shadow-map.resolution=2048", text));
+    ParamOption param{text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), split(text.substr(equals + 1), ',')};
+    if (std::find(param.values.begin(), param.values.end(), "") != param.values.end())
+        return usage_error(fmt::format("--param {}: a value is missing after '=' or ','; give one or leave the comma out", text));
+    return param;
+}
+
+Outcome<core::Done> check_backend(std::optional<std::string> const& backend) {
+    if (!backend || *backend == "cpu") return core::Done{};
+    return usage_error(fmt::format("--backend {}: this build has cpu; give --backend cpu or leave it out", *backend));
+}
+
+Outcome<Command> run_options(RawOptions const& raw, Verb verb) {
+    RunOptions run;
+    run.verb = verb;
+    auto scene = scene_options(raw);
+    if (!scene) return std::move(scene).failure();
+    auto view = view_options(raw);
+    if (!view) return std::move(view).failure();
+    auto light = light_options(raw);
+    if (!light) return std::move(light).failure();
+    if (auto backend = check_backend(raw.backend); !backend) return std::move(backend).failure();
+    run.scene = *std::move(scene);
+    run.view = *std::move(view);
+    run.light = *std::move(light);
+    run.techniques = raw.techniques;
+    if (run.techniques.empty())
+        run.techniques = verb == Verb::compare ? std::vector<std::string>{"shadow-map", "ray"}
+                                               : std::vector<std::string>{"shadow-map"};
+    for (std::string const& text : raw.params) {
+        auto param = read_param(text);
+        if (!param) return std::move(param).failure();
+        run.params.push_back(*std::move(param));
+    }
+    run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
+    run.repeats = verb == Verb::compare ? 3 : 1;
+    std::optional<core::Failure<Exit>> error;
+    take<std::int64_t>(raw.threads, run.threads, error,
+                       [](std::string const& t) { return read_integer("--threads", t, thread_range); });
+    take<std::int64_t>(raw.repeats, run.repeats, error,
+                       [](std::string const& t) { return read_integer("--repeats", t, repeat_range); });
+    if (error) return *error;
+    run.json = raw.json;
+    run.out = raw.out;
+    for (auto const& [name, path] : {std::pair{"--json", &raw.json}, {"--out", &raw.out}})
+        if (*path && (*path)->empty()) return usage_error(fmt::format("{} '': give a name that is not empty", name));
+    return Command{std::move(run)};
+}
+
+Outcome<Command> scenes_options(RawOptions const& raw) {
+    ScenesOptions options;
+    auto scene = scene_options(raw);
+    if (!scene) return std::move(scene).failure();
+    if (raw.scene.empty() && scene->tuned_by)
+        return usage_error(fmt::format("{}: name the scene that it is for, such as gnomon scenes city", *scene->tuned_by));
+    if (!raw.scene.empty()) options.scene = *std::move(scene);
+    options.write = raw.write;
+    if (raw.write && !options.scene)
+        return usage_error(fmt::format("--write {}: name the scene to write, such as gnomon scenes city --write {}", *raw.write,
+                                       *raw.write));
+    return Command{std::move(options)};
+}
+
+}  // namespace
+
+Outcome<Command> parse_command_line(int argc, char const* const* argv) {
+    auto raw = parse_raw(argc, argv);
+    if (!raw) return std::move(raw).failure();
+    switch (raw->verb) {
+        case RawVerb::help: return Command{HelpText{raw->text}};
+        case RawVerb::render: return run_options(raw->options, Verb::render);
+        case RawVerb::compare: return run_options(raw->options, Verb::compare);
+        case RawVerb::scenes: return scenes_options(raw->options);
+        case RawVerb::info: return Command{InfoOptions{}};
+    }
+    return usage_error("gnomon needs a verb; `gnomon --help` lists them");
+}
+
+}  // namespace gnomon::command

@@ -1,0 +1,85 @@
+#pragma once
+// The command line as plain, checked values. Nothing here opens a file.
+
+#include "outcome.hpp"
+
+#include <gnomon/math/vec.hpp>
+#include <gnomon/scene/procedural.hpp>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gnomon::command {
+
+struct SceneOptions {
+    scene::ProceduralConfig config;         ///< `name` is the built-in scene or the path, as given.
+    std::optional<std::string> tuned_by;    ///< The first option given that only a built-in scene can take.
+};
+
+struct ViewOptions {
+    std::optional<math::dvec3> eye_m;  ///< Given together with `look_m`.
+    std::optional<math::dvec3> look_m;
+    std::optional<double> fov_deg;      ///< Vertical.
+    std::optional<std::string> camera;  ///< Of the file, or a named view of a built-in scene.
+    std::optional<double> near_m;
+    std::optional<double> far_m;
+    math::ivec2 size_px{1024, 1024};
+};
+
+struct PointOption {
+    math::dvec3 position_m{0.0, 0.0, 0.0};
+    std::optional<double> range_m;
+};
+
+/// At most one of them is given.
+struct LightOptions {
+    std::optional<math::dvec3> sun;
+    std::optional<PointOption> point;
+    std::optional<std::string> name;  ///< One of the scene's own lights.
+};
+
+struct ParamOption {
+    std::string technique;
+    std::string name;
+    std::vector<std::string> values;  ///< Each makes a run.
+};
+
+enum class Verb {
+    render,   ///< Pictures.
+    compare,  ///< Pictures, a page, errors beside times.
+};
+
+struct RunOptions {
+    Verb verb = Verb::render;
+    SceneOptions scene;
+    ViewOptions view;
+    LightOptions light;
+    std::vector<std::string> techniques;
+    std::vector<ParamOption> params;
+    int threads = 1;
+    int repeats = 1;
+    std::optional<std::string> json;  ///< "-" is standard output.
+    std::optional<std::string> out;   ///< A folder.
+    std::string command;              ///< As typed.
+};
+
+struct ScenesOptions {
+    std::optional<SceneOptions> scene;
+    std::optional<std::string> write;
+};
+
+struct InfoOptions {};
+
+/// Text that was asked for: help or the version.
+struct HelpText {
+    std::string text;
+};
+
+using Command = std::variant<HelpText, RunOptions, ScenesOptions, InfoOptions>;
+
+/// returns: what to do; or a usage error whose sentence names the value and what to do.
+[[nodiscard]] Outcome<Command> parse_command_line(int argc, char const* const* argv);
+
+}  // namespace gnomon::command

@@ -1,0 +1,37 @@
+#pragma once
+// The command line as texts, straight from CLI11; options.cpp turns them into checked values.
+
+#include "outcome.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::command {
+
+struct RawOptions {
+    std::string scene;
+    std::optional<std::string> triangles, blocks, offset, seed;
+    std::optional<std::string> eye, look, fov, camera, near, far;
+    std::optional<std::string> sun, point, light;
+    std::vector<std::string> techniques, params;
+    std::optional<std::string> size, backend, threads, repeats, json, out, write;
+};
+
+enum class RawVerb {
+    help,  ///< `text` is what was asked for.
+    render,
+    compare,
+    scenes,
+    info,
+};
+
+struct RawCommand {
+    RawVerb verb = RawVerb::help;
+    RawOptions options;
+    std::string text;
+};
+
+[[nodiscard]] Outcome<RawCommand> parse_raw(int argc, char const* const* argv);
+
+}  // namespace gnomon::command
