@@ -1,0 +1,72 @@
+#pragma once
+// The generators behind `make_procedural`, and what they share.
+
+#include <gnomon/scene/procedural.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace gnomon::scene::detail {
+
+/// expects: the name fits, the budget is not 0, options that the scene does not take are at their defaults.
+Result<Scene> make_city(ProceduralConfig const& config);
+Result<Scene> make_cubes(ProceduralConfig const& config);
+Result<Scene> make_rayyard(ProceduralConfig const& config);
+Result<Scene> make_sheet(ProceduralConfig const& config);
+
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double sixty_degrees_rad = pi / 3.0;
+
+/// A plain, rough, non-metallic material of a linear colour.
+inline std::uint32_t add_material(Scene& scene, std::string name, math::vec3 const& color) {
+    Material material;
+    material.name = std::move(name);
+    material.base_color = math::vec4(color.x, color.y, color.z, 1.0F);
+    material.metallic = 0.0F;
+    material.roughness = 0.9F;
+    scene.materials.push_back(std::move(material));
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+inline std::uint32_t add_mesh(Scene& scene, std::string name, Mesh mesh) {
+    mesh.name = std::move(name);
+    scene.meshes.push_back(std::move(mesh));
+    return static_cast<std::uint32_t>(scene.meshes.size() - 1);
+}
+
+inline void add_instance(Scene& scene, std::string name, std::uint32_t mesh, math::dvec3 const& scale,
+                         math::dvec3 const& position_m) {
+    Instance instance;
+    instance.name = std::move(name);
+    instance.mesh = mesh;
+    for (int axis = 0; axis < 3; ++axis) {
+        instance.world_from_mesh[axis][axis] = scale[axis];
+        instance.world_from_mesh[3][axis] = position_m[axis];
+    }
+    scene.instances.push_back(std::move(instance));
+}
+
+inline Light sun_light() {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = glm::normalize(math::dvec3(-0.45, -0.8, -0.4));
+    sun.intensity = 3.0F;
+    return sun;
+}
+
+/// A lamp without range that lights a facing surface `reach_m` away about as the sun does.
+inline Light lamp(math::dvec3 const& position_m, double reach_m) {
+    Light light;
+    light.name = "lamp";
+    light.kind = LightKind::point;
+    light.position_m = position_m;
+    light.intensity = static_cast<float>(3.0 * reach_m * reach_m);
+    return light;
+}
+
+inline std::uint64_t seed_of(ProceduralConfig const& config, std::uint64_t fixed) noexcept {
+    return config.seed == 0 ? fixed : config.seed;
+}
+
+}  // namespace gnomon::scene::detail
