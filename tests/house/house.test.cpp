@@ -1,4 +1,5 @@
 #include "includes.hpp"
+#include "layout.hpp"
 #include "sizes.hpp"
 #include "tables.hpp"
 
@@ -121,4 +122,38 @@ TEST_CASE("a row of an equation table must name a function and a test that exist
     CHECK(findings("| eq. 2 | `slice_at` | `y.test.cpp` | none |") == 1);
     CHECK(findings("| eq. 2 | `slice_at` | | none |") == 1);
     CHECK(findings("| eq. 2 | `slice_at` |") == 1);
+}
+
+TEST_CASE("the layout check knows the top level and the parts of a module", "[house]") {
+    std::vector<Finding> findings;
+    auto names = house::top_level;
+    names.insert(".ci");
+    house::check_top_level(names, findings);
+    CHECK(findings.empty());
+    names.insert("scripts");
+    names.erase("LICENSE");
+    house::check_top_level(names, findings);
+    CHECK(findings.size() == 2);
+
+    findings.clear();
+    Tree tree = {{"modules/m/CMakeLists.txt", ""}, {"modules/m/README.md", ""}, {"modules/m/include/x.hpp", ""}, {"modules/m/tests/x.test.cpp", ""}};
+    house::check_module_parts(tree, findings);
+    CHECK(findings.empty());
+    tree["modules/m/tools/x.cpp"] = "";
+    tree.erase("modules/m/README.md");
+    house::check_module_parts(tree, findings);
+    CHECK(findings.size() == 2);
+}
+
+TEST_CASE("an example begins with what it shows and includes umbrellas only", "[house]") {
+    auto const findings = [](std::string const& text) {
+        std::vector<Finding> found;
+        house::check_example("examples/a.cpp", text, found);
+        return found.size();
+    };
+    CHECK(findings("// Shows: a thing.\n#include <gnomon/math.hpp>\n#include <vector>\n") == 0);
+    CHECK(findings("#include <gnomon/math.hpp>\n") == 1);
+    CHECK(findings("// Shows: a thing.\n#include <gnomon/math/vec.hpp>\n") == 1);
+    CHECK(findings("// Shows: a thing.\n" + lines(120)) == 1);
+    CHECK(findings("// Shows: a thing.\n" + lines(119)) == 0);
 }

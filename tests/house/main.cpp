@@ -1,7 +1,8 @@
-// house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT
+// house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT
 // Prints what breaks a rule of the house, one line each; exit code 1 if there is any.
 
 #include "includes.hpp"
+#include "layout.hpp"
 #include "sizes.hpp"
 #include "tables.hpp"
 
@@ -13,6 +14,14 @@ house::Tree read_tree(std::string const& root, std::vector<std::string> const& s
     house::Tree tree;
     for (auto const* folder : {"modules", "examples", "tests"}) house::read_into(tree, root, folder, suffixes);
     return tree;
+}
+
+/// The top level's names; the folders that builds and demos leave there are ignored by git and here.
+std::set<std::string> top_level_names(std::string const& root) {
+    std::set<std::string> names;
+    for (auto const& entry : std::filesystem::directory_iterator(root)) names.insert(entry.path().filename().string());
+    for (auto const* ignored : {"build", "demo", "compile_commands.json", "CMakeUserPresets.json"}) names.erase(ignored);
+    return names;
 }
 
 int report(std::vector<house::Finding> const& findings) {
@@ -34,6 +43,8 @@ int main(int argc, char** argv) {
     if (args.size() == 3 && args[0] == "sizes")
         return report(house::check_sizes(read_tree(args[2], {".hpp", ".cpp"}), house::read_file(args[1])));
     if (args.size() == 2 && args[0] == "tables") return report(house::check_tables(read_tree(args[1], {".hpp", ".cpp", ".md"})));
-    std::cerr << "usage: house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT\n";
+    if (args.size() == 2 && args[0] == "layout")
+        return report(house::check_layout(read_tree(args[1], {".hpp", ".cpp", ".md", ".txt"}), top_level_names(args[1])));
+    std::cerr << "usage: house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT\n";
     return 2;
 }
