@@ -56,7 +56,7 @@ void grid(std::string& svg, LogAxis const& x, LogAxis const& y) {
     }
     for (double const value : y.ticks()) {
         double const at = log_floor_y - y.fraction(value) * (log_floor_y - top);
-        fmt::format_to(out, "<line class='grid' x1='{}' x2='{}' y1='{2:.1f}' y2='{2:.1f}'/>", left, width - right, at);
+        fmt::format_to(out, "<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/>", left, width - right, at);
         fmt::format_to(out, "<text class='tick' x='{}' y='{:.1f}' text-anchor='end'>{}</text>\n", left - 8.0, at + 4.0,
                        tick_text(value));
     }
@@ -94,18 +94,16 @@ void speed_axis(std::string& svg, LogAxis const& x, double ray_ms) {
 }
 
 void series_lines(std::string& svg, std::span<PlotPoint const> points, std::span<Placed const> at) {
-    auto out = std::back_inserter(svg);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        bool const first = series_index(points.first(i + 1), points[i].series) == series_index(points, points[i].series) &&
-                           std::none_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i),
-                                        [&](PlotPoint const& p) { return p.series == points[i].series; });
-        if (!first) continue;
+        auto const of_series = [&](PlotPoint const& point) { return point.series == points[i].series; };
+        auto const before = points.first(i);
+        if (std::any_of(before.begin(), before.end(), of_series)) continue;
         std::string path;
         for (std::size_t j = i; j < points.size(); ++j)
-            if (points[j].series == points[i].series && points[j].wrong_fraction > 0.0)
+            if (of_series(points[j]) && points[j].wrong_fraction > 0.0)
                 path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", at[j].x, at[j].y);
         if (!path.empty())
-            fmt::format_to(out, "<path class='line s{}' d='{}'/>\n", series_index(points, points[i].series) % 6, path);
+            svg += fmt::format("<path class='line s{}' d='{}'/>\n", series_index(points, points[i].series) % 6, path);
     }
 }
 

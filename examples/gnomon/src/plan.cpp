@@ -1,0 +1,101 @@
+#include "plan.hpp"
+
+#include "values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace gnomon::command {
+
+namespace {
+
+constexpr std::size_t most_runs = 256;
+
+using Settings = std::vector<pipeline::Setting>;
+
+/// Lower-case letters, digits, dots and hyphens; safe as a file name anywhere.
+std::string slug_from(std::string const& label) {
+    std::string slug;
+    for (char const c : label) {
+        bool const plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
+        slug += plain ? c : '-';
+    }
+    return slug;
+}
+
+/// All combinations of the values that `params` lists for `technique`.
+std::vector<Settings> combinations(std::string const& technique, std::vector<ParamOption> const& params) {
+    std::vector<Settings> all(1);
+    for (ParamOption const& param : params) {
+        if (param.technique != technique) continue;
+        std::vector<Settings> longer;
+        for (Settings const& settings : all)
+            for (std::string const& value : param.values) {
+                longer.push_back(settings);
+                longer.back().push_back({param.name, value});
+                if (longer.size() > most_runs) return longer;
+            }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+bool same_values(PlannedRun const& a, PlannedRun const& b) {
+    auto const equal = [](pipeline::Params::Value const& x, pipeline::Params::Value const& y) { return x.text == y.text; };
+    return a.technique == b.technique && std::equal(a.params.values.begin(), a.params.values.end(),
+                                                    b.params.values.begin(), b.params.values.end(), equal);
+}
+
+Outcome<PlannedRun> plan_run(pipeline::Technique const& technique, Settings const& settings) {
+    auto params = pipeline::make_params(technique, settings);
+    if (!params) return usage_error("--param " + params.failure().message);
+    PlannedRun run{&technique, *std::move(params), std::string(technique.name), {}};
+    for (pipeline::Setting const& setting : settings) run.label += fmt::format(" {}={}", setting.name, setting.text);
+    run.slug = slug_from(run.label);
+    return run;
+}
+
+Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std::vector<ParamOption> const& params) {
+    for (std::string const& name : techniques)
+        if (auto found = pipeline::find_technique(name); !found)
+            return usage_error("--techniques " + found.failure().message);
+    for (std::size_t i = 0; i < params.size(); ++i) {
+        ParamOption const& param = params[i];
+        std::string const whole = fmt::format("--param {}.{}", param.technique, param.name);
+        if (auto found = pipeline::find_technique(param.technique); !found)
+            return usage_error(whole + ": " + found.failure().message);
+        if (std::find(techniques.begin(), techniques.end(), param.technique) == techniques.end())
+            return usage_error(fmt::format("{}: {} is not among the techniques to run; add it to --techniques {}", whole,
+                                           param.technique, join(techniques, ",")));
+        for (std::size_t j = 0; j < i; ++j)
+            if (params[j].technique == param.technique && params[j].name == param.name)
+                return usage_error(fmt::format("{}: given twice; put all its values into one list", whole));
+    }
+    return core::Done{};
+}
+
+}  // namespace
+
+Outcome<std::vector<PlannedRun>> plan_runs(std::vector<std::string> const& techniques,
+                                           std::vector<ParamOption> const& params) {
+    if (auto names = check_names(techniques, params); !names) return std::move(names).failure();
+    std::vector<PlannedRun> runs;
+    for (std::string const& name : techniques) {
+        auto technique = pipeline::find_technique(name);
+        for (Settings const& settings : combinations(name, params)) {
+            auto run = plan_run(**technique, settings);
+            if (!run) return std::move(run).failure();
+            for (PlannedRun const& other : runs)
+                if (same_values(other, *run))
+                    return usage_error(fmt::format("{}: this run is asked for twice; leave one out", run->label));
+            runs.push_back(*std::move(run));
+            if (runs.size() > most_runs)
+                return usage_error(fmt::format("--param: the lists make more than {} runs; shorten them", most_runs));
+        }
+    }
+    return runs;
+}
+
+}  // namespace gnomon::command

@@ -1,0 +1,74 @@
+// `scenes`: the built-in scenes as a table, or one of them as a glTF file.
+
+#include "verbs.hpp"
+
+#include "inputs.hpp"
+#include "output.hpp"
+#include "table.hpp"
+#include "values.hpp"
+
+#include <gnomon/scene/procedural.hpp>
+#include <gnomon/scene/write.hpp>
+
+#include <fmt/format.h>
+
+namespace gnomon::command {
+
+namespace {
+
+std::string list_of_scenes() {
+    std::vector<std::vector<std::string>> rows;
+    std::string descriptions;
+    rows.push_back({"scene", "triangles", "options"});
+    for (scene::ProceduralInfo const& info : scene::procedural_scenes()) {
+        std::vector<std::string> options;
+        if (info.takes_triangles) options.emplace_back("--triangles");
+        if (info.takes_blocks) options.emplace_back("--blocks");
+        if (info.takes_offset) options.emplace_back("--offset");
+        rows.push_back({std::string(info.name), grouped(info.default_triangles), join(options, " ")});
+        descriptions += fmt::format("{}: {}\n", info.name, info.description);
+    }
+    return aligned(rows, false) + '\n' + descriptions +
+           "\nAny .gltf or .glb file is a scene too. `gnomon scenes NAME` says more about one of either kind.\n";
+}
+
+std::string names_and_count(auto const& things) {
+    std::vector<std::string> names;
+    for (auto const& thing : things) names.push_back(thing.name.empty() ? "(no name)" : thing.name);
+    return things.empty() ? "none" : fmt::format("{}: {}", things.size(), join(names));
+}
+
+std::string facts_about(LoadedScene const& loaded) {
+    scene::Scene const& scene = loaded.scene;
+    std::vector<std::vector<std::string>> const numbers = {
+        {"triangles drawn", grouped(scene::count_triangles(scene))},
+        {"triangles stored", grouped(scene::count_unique_triangles(scene))},
+        {"meshes", grouped(scene.meshes.size())},
+        {"instances", grouped(scene.instances.size())},
+        {"materials", grouped(scene.materials.size())},
+        {"images", grouped(scene.images.size())}};
+    std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\n", loaded.text, aligned(numbers, false),
+                                   names_and_count(scene.cameras), names_and_count(scene.lights));
+    for (std::string const& warning : scene.notes.warnings) text += "note    " + warning + '\n';
+    return text;
+}
+
+}  // namespace
+
+Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options) {
+    if (!options.scene) return print(list_of_scenes());
+    if (options.write) {
+        if (!options.write->ends_with(".glb") && !options.write->ends_with(".gltf"))
+            return usage_error(fmt::format("--write {}: give a name that ends in .glb or .gltf", *options.write));
+        if (auto file = check_file("--write", *options.write); !file) return file;
+    }
+    auto loaded = load_scene(*options.scene);
+    if (!loaded) return std::move(loaded).failure();
+    if (!options.write) return print(facts_about(*loaded));
+    auto written = scene::write_gltf(loaded->scene, *options.write);
+    if (!written) return failure(written.failure().message);
+    return print(fmt::format("{}: {} triangles written to {}\n", loaded->text, grouped(scene::count_triangles(loaded->scene)),
+                             *options.write));
+}
+
+}  // namespace gnomon::command

@@ -1,0 +1,16 @@
+#pragma once
+// What the verbs do.
+
+#include "options.hpp"
+
+namespace gnomon::command {
+
+/// `render` and `compare`.
+[[nodiscard]] Outcome<core::Done> run(RunOptions const& options);
+[[nodiscard]] Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options);
+[[nodiscard]] Outcome<core::Done> show_info();
+
+/// Prints to standard output; a full disk or a closed pipe is a failure, not silence.
+[[nodiscard]] Outcome<core::Done> print(std::string const& text);
+
+}  // namespace gnomon::command
