@@ -83,12 +83,13 @@ using SnappedTriangle = std::array<SnappedVertex, 3>;
 ///
 ///     z = z0 + E1 g1 + E2 g2,  g_i = (z_i - z0) / doubled area,  corner 0 the one with the least z
 ///
-/// E are the exact integer edge functions, all terms but z0 are >= 0 inside: nothing cancels. With e = 2^-24:
-/// E rounds to float (e), g (e), their product (e), the sum (e), z0 with its fractions (e), the last sum (e); so
+/// E are the exact integer edge functions, all terms but z0 are >= 0 inside: nothing cancels. With e = 2^-24 each of
+/// E, g, E g, the sum of the two, z0 with the fractions of E, and the last sum is rounded once to float; so
 ///
-///     |z - exact| <= 5e |exact - z0| + 2e max(|z0|, |exact|)         (1)
+///     |z - exact| <= 4e (exact - z0) + 2e max(|z0|, |exact|)  (1 + 2^-20)  + 2^-140
 ///
-/// which is at most 7e |exact|, 5 ulps, where no z is negative.
+/// which is at most 5e exact where no corner's z is negative, whatever the triangle's shape. A triangle of more than
+/// 1024 pixels on a side is evaluated in double and rounded once: e |exact|.
 /// expects: an area that is not 0, and `covers(triangle, x, y)`.
 [[nodiscard]] float depth_at(SnappedTriangle const& triangle, std::int32_t x, std::int32_t y) noexcept;
 
