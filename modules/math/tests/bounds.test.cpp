@@ -10,7 +10,7 @@ namespace {
 using namespace gnomon;
 using math::Aabb;
 using math::vec3;
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf = std::numeric_limits<float>::infinity();
 }  // namespace
 
@@ -48,8 +48,8 @@ TEST_CASE("the centre of any finite box is inside it", "[math][bounds][property]
 }
 
 TEST_CASE("points that are not finite leave bounds alone", "[math][bounds]") {
-    std::array<vec3, 4> const points{vec3(1.0F), vec3(nan, 0.0F, 0.0F), vec3(0.0F, inf, 0.0F), vec3(2.0F)};
+    std::array<vec3, 4> const points{vec3(1.0F), vec3(not_a_number, 0.0F, 0.0F), vec3(0.0F, inf, 0.0F), vec3(2.0F)};
     CHECK(math::bounds_of(points) == Aabb{vec3(1.0F), vec3(2.0F)});
     CHECK(math::is_empty(math::bounds_of({})));
-    CHECK_FALSE(math::contains(Aabb{vec3(-1.0F), vec3(1.0F)}, vec3(nan)));
+    CHECK_FALSE(math::contains(Aabb{vec3(-1.0F), vec3(1.0F)}, vec3(not_a_number)));
 }

@@ -19,7 +19,7 @@ std::uint64_t interleaved(std::uint64_t x, std::uint64_t y, std::uint64_t z, uns
     return code;
 }
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -51,7 +51,7 @@ TEST_CASE("the border, no extent, NaN and infinity have a defined cell", "[math]
     Aabb const unit{vec3(0.0F), vec3(1.0F)};
     CHECK(math::grid_cell(unit, vec3(1.0F), 1024) == math::uvec3(1023U));
     CHECK(math::grid_cell(unit, vec3(math::next_down(1.0F)), 1024) == math::uvec3(1023U));
-    CHECK(math::grid_cell(unit, vec3(nan, inf, -inf), 1024) == math::uvec3(0U, 1023U, 0U));
+    CHECK(math::grid_cell(unit, vec3(not_a_number, inf, -inf), 1024) == math::uvec3(0U, 1023U, 0U));
     CHECK(math::grid_cell(Aabb{vec3(2.0F), vec3(2.0F)}, vec3(2.0F), 1024) == math::uvec3(0U));
     CHECK(math::grid_cell(Aabb{}, vec3(2.0F), 1024) == math::uvec3(0U));
 }

@@ -13,7 +13,7 @@ using math::dvec2;
 using math::dvec3;
 using math::View;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 bool close(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
@@ -90,7 +90,7 @@ TEST_CASE("the image's top left is left, up and in front", "[math][view]") {
 TEST_CASE("a frame is orthonormal and right-handed for any direction and up", "[math][view][property]") {
     check::for_all(math::directions(), math::directions(), [](dvec3 const& direction, dvec3 const& up) {
         for (double const scale : {1e-150, 1.0, 1e150})
-            for (dvec3 const& some_up : {up, direction, -direction, dvec3(0.0), dvec3(nan), dvec3(0.0, 1.0, 0.0)}) {
+            for (dvec3 const& some_up : {up, direction, -direction, dvec3(0.0), dvec3(not_a_number), dvec3(0.0, 1.0, 0.0)}) {
                 View const view = math::looking_along(View{}, direction * scale, some_up);
                 CHECK(close(glm::dot(view.right, view.right), 1.0, 1e-12));
                 CHECK(close(glm::dot(view.up, view.up), 1.0, 1e-12));
@@ -132,15 +132,15 @@ TEST_CASE("a view that cannot be is refused with its value", "[math][view]") {
         change(config);
         return math::make_perspective(config).failure();
     };
-    CHECK(code([](auto& c) { c.eye_m.x = nan; }).code == math::ViewError::not_finite);
+    CHECK(code([](auto& c) { c.eye_m.x = not_a_number; }).code == math::ViewError::not_finite);
     CHECK(code([](auto& c) { c.target_m.z = inf; }).code == math::ViewError::not_finite);
     CHECK(code([](auto& c) { c.target_m = c.eye_m; }).code == math::ViewError::no_direction);
     CHECK(code([](auto& c) { c.fov_y_rad = 0.0; }).code == math::ViewError::bad_field);
     CHECK(code([](auto& c) { c.fov_y_rad = 3.2; }).code == math::ViewError::bad_field);
-    CHECK(code([](auto& c) { c.fov_y_rad = nan; }).code == math::ViewError::bad_field);
+    CHECK(code([](auto& c) { c.fov_y_rad = not_a_number; }).code == math::ViewError::bad_field);
     CHECK(code([](auto& c) { c.near_m = 0.0; }).code == math::ViewError::bad_depth_range);
     CHECK(code([](auto& c) { c.far_m = c.near_m; }).code == math::ViewError::bad_depth_range);
-    CHECK(code([](auto& c) { c.near_m = nan; }).code == math::ViewError::bad_depth_range);
+    CHECK(code([](auto& c) { c.near_m = not_a_number; }).code == math::ViewError::bad_depth_range);
     auto const empty = code([](auto& c) { c.size_px.y = 0; });
     CHECK(empty.code == math::ViewError::empty_image);
     CHECK_THAT(empty.message, Catch::Matchers::Contains("640x0"));
@@ -154,6 +154,6 @@ TEST_CASE("an orthographic view needs a window with an area and two finite ends"
     config.far_m = 1.0;
     config.window_m = {1.0, 1.0, -1.0, 1.0};
     CHECK(math::make_orthographic(config).failure().code == math::ViewError::bad_field);
-    config.window_m = {-1.0, nan, -1.0, 1.0};
+    config.window_m = {-1.0, not_a_number, -1.0, 1.0};
     CHECK(math::make_orthographic(config).failure().code == math::ViewError::bad_field);
 }

@@ -63,7 +63,9 @@ struct Sphere {
                 (i & 4U) != 0 ? box.hi.z : box.lo.z);
 }
 
-/// The middle of the box, halved before it is added, so that no finite box overflows.
-[[nodiscard]] inline vec3 center(Aabb const& box) noexcept { return box.lo * 0.5F + box.hi * 0.5F; }
+/// The middle of the box: always inside it. Taken in double, where neither huge nor denormal corners round away.
+[[nodiscard]] inline vec3 center(Aabb const& box) noexcept {
+    return to_float((to_double(box.lo) + to_double(box.hi)) * 0.5);
+}
 
 }  // namespace gnomon::math
