@@ -33,8 +33,8 @@ Json error_json(pipeline::Measures const& error) {
             {"acne", error.acne},
             {"detachment", error.detachment},
             {"edge_px", edge},
-            {"visibility", {{"mean", number(error.visibility_error_mean)}, {"p99", number(error.visibility_error_p99)}}},
-            {"radiance", number(error.radiance_error)}};
+            {"visibility_error", {{"mean", number(error.visibility_error_mean)}, {"p99", number(error.visibility_error_p99)}}},
+            {"radiance_error", number(error.radiance_error)}};
 }
 
 Json counts_json(std::vector<pipeline::Count> const& counts) {

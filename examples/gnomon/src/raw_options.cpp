@@ -75,7 +75,9 @@ std::string sentence_for(CLI::ParseError const& error, CLI::App const& app, std:
     std::string const see = fmt::format("`gnomon {}{}--help` lists what it takes", verb, verb.empty() ? "" : " ");
     if (dynamic_cast<CLI::ExtrasError const*>(&error) != nullptr) {
         std::size_t const colon = what.find(": ");
-        std::string const first = split(colon == std::string::npos ? what : what.substr(colon + 2), ' ').front();
+        std::vector<std::string> const words = split(colon == std::string::npos ? what : what.substr(colon + 2), ' ');
+        auto const option = std::find_if(words.begin(), words.end(), [](std::string const& w) { return w.starts_with("-"); });
+        std::string const first = option != words.end() ? *option : words.front();
         auto const near = closest(split(first, '=').front(), option_names(app));
         return fmt::format("{}: gnomon {} does not take this; {}{}", first, verb,
                            near ? fmt::format("did you mean {}? ", *near) : "", see);
