@@ -18,7 +18,7 @@ class TbbExecutor {
 public:
     /// `threads` at least 1; 0 takes all of the machine's.
     explicit TbbExecutor(int threads = 0)
-        : arena_(std::make_unique<tbb::task_arena>(threads > 0 ? threads : tbb::task_arena::automatic)) {}
+        : arena_(std::make_unique<tbb::task_arena>(threads > 0 ? threads : int{tbb::task_arena::automatic})) {}
 
     template <class F>
     void parallel_for(std::size_t n, std::size_t grain, F&& f) const {
