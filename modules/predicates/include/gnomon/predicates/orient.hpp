@@ -56,6 +56,14 @@ namespace detail {
     return detail::det3_sign({b, &a}, {c, &a}, {d.xyz, d.at_infinity ? nullptr : &a});
 }
 
+/// The plane of a, b, c has p strictly on one side and q strictly on the other.
+///
+/// returns: false for a triangle without area, and when any number is NaN or infinite.
+[[nodiscard]] inline bool separates(math::vec3 const& a, math::vec3 const& b, math::vec3 const& c, Target const& p,
+                                    Target const& q) noexcept {
+    return strictly_opposite(orient3d(a, b, c, p), orient3d(a, b, c, q));
+}
+
 /// On which side of the line from `start` to `end` the line from a to b passes.
 ///
 ///     orient3d(start, end, a, b) = ((end - start) x (a - start)) . (b - start)

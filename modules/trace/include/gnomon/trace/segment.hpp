@@ -31,9 +31,7 @@ struct Segment {
 /// returns: false for a triangle without area, an end point in the triangle's plane (sign 0 does not block), and
 ///          for NaN or infinity anywhere.
 [[nodiscard]] inline bool blocks(Triangle const& t, Segment const& s) noexcept {
-    predicates::Sign const start_side = predicates::orient3d(t[0], t[1], t[2], s.start);
-    predicates::Sign const light_side = predicates::orient3d(t[0], t[1], t[2], s.end);
-    if (!strictly_opposite(start_side, light_side)) return false;
+    if (!predicates::separates(t[0], t[1], t[2], Light::point(s.start), s.end)) return false;
     return none_opposite(line_side(s.start, s.end, t[0], t[1]), line_side(s.start, s.end, t[1], t[2]),
                          line_side(s.start, s.end, t[2], t[0]));
 }

@@ -65,7 +65,7 @@ namespace detail {
 [[nodiscard]] inline bool faces_away(OwnPlane const& plane, core::TriangleId id, Light const& light) noexcept {
     if (!is_usable(plane.triangles, id)) return false;
     Triangle const t = plane.triangles[id];
-    return strictly_opposite(orient3d(t[0], t[1], t[2], plane.eye), orient3d(t[0], t[1], t[2], light));
+    return predicates::separates(t[0], t[1], t[2], plane.eye, light);
 }
 
 }  // namespace detail
