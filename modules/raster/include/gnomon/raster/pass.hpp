@@ -41,8 +41,8 @@ struct PassConfig {
     DepthRange range = DepthRange::clip;
     Load load = Load::clear;
     Kernel kernel = Kernel::automatic;
-    std::optional<Rect> viewport;  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
-    std::optional<Rect> scissor;   ///< The only pixels cleared and drawn; the whole target by default.
+    std::optional<Rect> viewport{};  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
+    std::optional<Rect> scissor{};   ///< The only pixels cleared and drawn; the whole target by default.
 };
 
 /// Where a pass's triangles went. `triangles` is the sum of the eight counts below it up to `drawn`.
