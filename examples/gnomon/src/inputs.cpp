@@ -19,7 +19,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-std::string text_of(math::dvec3 const& v) { return fmt::format("{:.7g},{:.7g},{:.7g}", v.x, v.y, v.z); }
+/// The shortest text that reads back as the same numbers.
+std::string text_of(math::dvec3 const& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 /// Whether the text can only mean a file.
 bool looks_like_path(std::string const& text) {
@@ -58,10 +59,24 @@ Outcome<LoadedScene> load_file(SceneOptions const& options) {
     return LoadedScene{*std::move(loaded), short_name(path), false};
 }
 
+/// What to call the thing at `index`: its name, or its number from 1 where the file gives none.
+std::string name_of(auto const& things, std::size_t index) {
+    return things[index].name.empty() ? std::to_string(index + 1) : things[index].name;
+}
+
 std::vector<std::string> names_of(auto const& things) {
     std::vector<std::string> names;
-    for (auto const& thing : things) names.push_back(thing.name);
+    for (std::size_t i = 0; i < things.size(); ++i) names.push_back(name_of(things, i));
     return names;
+}
+
+/// Where the thing of this name stands, or of this number counted from 1; a name goes first.
+std::optional<std::size_t> find_by_name(auto const& things, std::string const& wanted) {
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (things[i].name == wanted) return i;
+    auto const number = integer_from(wanted);
+    bool const in_range = number && *number >= 1 && static_cast<std::uint64_t>(*number) <= things.size();
+    return in_range ? std::optional(static_cast<std::size_t>(*number - 1)) : std::nullopt;
 }
 
 /// Near and far as the user wants them, whatever gave the view.
@@ -70,8 +85,8 @@ Outcome<Described<math::View>> with_range(math::View view, std::string text, Vie
     if (options.far_m) view.far_m = *options.far_m;
     if (!(view.near_m < view.far_m))
         return usage_error(fmt::format("--near {:g} and --far {:g} m: near must be less than far", view.near_m, view.far_m));
-    if (options.near_m) text += fmt::format(" --near {:g}", view.near_m);
-    if (options.far_m) text += fmt::format(" --far {:g}", view.far_m);
+    if (options.near_m) text += fmt::format(" --near {}", view.near_m);
+    if (options.far_m) text += fmt::format(" --far {}", view.far_m);
     return Described<math::View>{view, text + fmt::format(" --size {}x{}", view.size_px.x, view.size_px.y)};
 }
 
@@ -82,20 +97,41 @@ Outcome<Described<math::View>> view_at(math::PerspectiveConfig const& config, Vi
                                          config.fov_y_rad * 180.0 / pi), options);
 }
 
-Outcome<Described<math::View>> view_of_camera(scene::Camera const& camera, ViewOptions const& options) {
-    scene::Camera ranged = camera;  // the user's range may mend the file's
+Outcome<Described<math::View>> view_of_camera(std::vector<scene::Camera> const& cameras, std::size_t index, ViewOptions const& options) {
+    scene::Camera ranged = cameras[index];  // the user's range may mend the file's
     if (options.near_m) ranged.near_m = *options.near_m;
     if (options.far_m) ranged.far_m = *options.far_m;
     auto view = scene::make_view(ranged, options.size_px);
-    if (!view) return failure(fmt::format("camera '{}': {}; give --near and --far, or --eye and --look", camera.name,
+    if (!view) return failure(fmt::format("camera '{}': {}; give --near and --far, or --eye and --look", name_of(cameras, index),
                                           view.failure().message));
-    return with_range(*view, "--camera " + camera.name, options);
+    return with_range(*view, "--camera " + name_of(cameras, index), options);
 }
 
 /// Where the given --eye and --look leave the near plane open: close enough for what is looked at.
 double near_for(math::dvec3 const& eye_m, math::dvec3 const& look_m) {
     constexpr double usual_m = 0.1;
     return std::min(usual_m, glm::length(look_m - eye_m) * 1e-3);
+}
+
+/// A view that shows the scene, in round numbers, so that its options give exactly the same view again.
+Outcome<Described<math::View>> suggested_view(scene::Geometry const& geometry, ViewOptions options) {
+    scene::SuggestedView const suggested = scene::auto_view(geometry);
+    double const distance_m = glm::length(suggested.target_m - suggested.eye_m);
+    // Steps of a power of ten, about a thousandth of the distance; as a quotient, which has a short decimal form.
+    double const steps_per_m = std::pow(10.0, 3.0 - std::floor(std::log10(distance_m > 0.0 ? distance_m : 1.0)));
+    auto const rounded = [](double value, double steps) { return std::round(value * steps) / steps; };
+    math::PerspectiveConfig config;
+    for (int axis = 0; axis < 3; ++axis) {
+        config.eye_m[axis] = rounded(suggested.eye_m[axis], steps_per_m);
+        config.target_m[axis] = rounded(suggested.target_m[axis], steps_per_m);
+    }
+    config.fov_y_rad = rounded(suggested.fov_y_rad * 180.0 / pi, 10.0) * pi / 180.0;
+    config.size_px = options.size_px;
+    double const near_steps = std::pow(10.0, 1.0 - std::floor(std::log10(suggested.near_m)));
+    if (!options.near_m) options.near_m = std::floor(suggested.near_m * near_steps) / near_steps;
+    config.near_m = *options.near_m;
+    config.far_m = options.far_m.value_or(std::numeric_limits<double>::infinity());
+    return view_at(config, options);
 }
 
 }  // namespace
@@ -113,9 +149,7 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
                                            scene::Geometry const& geometry) {
     std::vector<scene::Camera> const& cameras = loaded.scene.cameras;
     if (options.camera) {
-        auto const found = std::find_if(cameras.begin(), cameras.end(),
-                                        [&](scene::Camera const& camera) { return camera.name == *options.camera; });
-        if (found != cameras.end()) return view_of_camera(*found, options);
+        if (auto const found = find_by_name(cameras, *options.camera)) return view_of_camera(cameras, *found, options);
         return usage_error(fmt::format("--camera {}: the scene has no such camera; {}", *options.camera,
                                        suggestion(*options.camera, names_of(cameras))));
     }
@@ -129,13 +163,8 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
         config.far_m = options.far_m.value_or(std::numeric_limits<double>::infinity());
         return view_at(config, options);
     }
-    if (loaded.built_in && !cameras.empty()) return view_of_camera(cameras.front(), options);
-    scene::SuggestedView const suggested = scene::auto_view(geometry);
-    config.eye_m = suggested.eye_m;
-    config.target_m = suggested.target_m;
-    config.fov_y_rad = suggested.fov_y_rad;
-    config.near_m = suggested.near_m;
-    return view_at(config, options);
+    if (loaded.built_in && !cameras.empty()) return view_of_camera(cameras, 0, options);
+    return suggested_view(geometry, options);
 }
 
 Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene) {
@@ -150,19 +179,18 @@ Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene
         std::string text = "--point " + text_of(light.position_m);
         if (options.point->range_m) {
             light.range_m = static_cast<float>(*options.point->range_m);
-            text += fmt::format(",{:g}", *options.point->range_m);
+            text += fmt::format(",{}", *options.point->range_m);
         }
         return Described<scene::Light>{light, text};
     }
     std::vector<scene::Light> const& lights = scene.lights;
     if (options.name) {
-        auto const found = std::find_if(lights.begin(), lights.end(),
-                                        [&](scene::Light const& candidate) { return candidate.name == *options.name; });
-        if (found != lights.end()) return Described<scene::Light>{*found, "--light " + found->name};
+        if (auto const found = find_by_name(lights, *options.name))
+            return Described<scene::Light>{lights[*found], "--light " + name_of(lights, *found)};
         return usage_error(fmt::format("--light {}: the scene has no such light; {}", *options.name,
                                        suggestion(*options.name, names_of(lights))));
     }
-    if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + lights.front().name};
+    if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + name_of(lights, 0)};
     light = scene::default_sun();
     return Described<scene::Light>{light, "--sun " + text_of(light.direction)};
 }

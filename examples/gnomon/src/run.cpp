@@ -145,6 +145,9 @@ struct StepsOfRuns {
     static constexpr int before = 2;
     static constexpr int after = 1;
 
+    /// The pipeline shades the frame before the runs.
+    static int steps(std::size_t runs) { return before + 1 + static_cast<int>(runs) + after; }
+
     static void report(void* context, int done, int total, std::string_view what) {
         static_cast<StepsOfRuns*>(context)->bar->show(before + done, before + total + after, what);
     }
@@ -166,7 +169,7 @@ core::Failure<Exit> exit_for(core::Failure<pipeline::Error> const& why) {
 
 Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const& plan, ProgressBar& bar,
                         core::ExecutorRef executor) {
-    int const steps = StepsOfRuns::before + static_cast<int>(plan.size()) + StepsOfRuns::after;
+    int const steps = StepsOfRuns::steps(plan.size());
     bar.show(0, steps, "reading " + options.scene.config.name);
     auto inputs = gather(options);
     if (!inputs) return std::move(inputs).failure();
@@ -200,7 +203,7 @@ Outcome<core::Done> run(RunOptions const& options) {
     ProgressBar bar(is_terminal(2));
     auto report = measure(options, *plan, bar, executor);
     if (!report) return std::move(report).failure();
-    int const steps = StepsOfRuns::before + static_cast<int>(plan->size()) + StepsOfRuns::after;
+    int const steps = StepsOfRuns::steps(plan->size());
     bar.show(steps - 1, steps, "writing " + out_folder(options));
     std::vector<OutputFile> const files = files_of(*report, options.verb, executor);
     if (auto written = write_folder(out_folder(options), files); !written) return written;

@@ -1,0 +1,150 @@
+// The real binary, on small scenes.
+
+#include "fixtures.hpp"
+#include "process.hpp"
+#include "schema.hpp"
+
+#include <gnomon/check/check.hpp>
+
+#include <algorithm>
+
+using namespace gnomon::command;
+using nlohmann::json;
+
+namespace {
+
+bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+std::vector<std::string> words(std::string const& text) {
+    std::istringstream in(text);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+json results_in(fs::path const& folder) { return json::parse(read_text(folder / "results.json")); }
+
+}  // namespace
+
+TEST_CASE("compare writes a folder that is whole: page, pictures, results", "[command]") {
+    TestFolder const folder;
+    std::string const scene = write_table(folder);
+    Ended const ended = gnomon_in(folder.path(), {"compare", scene, "--techniques", "shadow-map,ray", "--param",
+                                                  "shadow-map.resolution=32,512", "--size", "96x64", "--repeats", "1", "--out", "out"});
+    CAPTURE(ended.err, ended.out);
+    REQUIRE(ended.exit_code == 0);
+    json const results = results_in(folder / "out");
+    auto const errors = schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results);
+    CAPTURE(errors.empty() ? std::string() : errors.front());
+    CHECK(errors.empty());
+    REQUIRE(results["runs"].size() == 3);
+    json const& runs = results["runs"];
+    CHECK(runs[0]["params"]["resolution"] == 32);
+    CHECK(runs[2]["technique"] == "ray");
+    CHECK(runs[2]["error"]["wrong"] == 0);
+    CHECK(runs[0]["error"]["wrong"] > 0);
+    CHECK(runs[1]["error"]["wrong_fraction"] < runs[0]["error"]["wrong_fraction"]);
+    std::vector<std::string> listed = results["gnomon"]["files"];
+    std::sort(listed.begin(), listed.end());
+    std::vector<std::string> found;
+    for (auto const& entry : fs::directory_iterator(folder / "out")) found.push_back(entry.path().filename().string());
+    std::sort(found.begin(), found.end());
+    CHECK(found == listed);
+    CHECK(folder.entries() == std::vector<std::string>{"out", "table.glb"});
+    for (std::string const& name : found)
+        if (name.ends_with(".png")) CHECK(has(read_text(folder / "out" / name).substr(0, 8), "PNG"));
+    CHECK_FALSE(has(ended.out + ended.err, "\x1b"));
+    CHECK(has(ended.out, "shadow-map resolution=512"));
+    CHECK(ended.err.empty());
+}
+
+TEST_CASE("the page loads nothing from elsewhere", "[command]") {
+    TestFolder const folder;
+    Ended const ended = gnomon_in(folder.path(), {"compare", write_table(folder), "--size", "48x32", "--repeats", "1", "--out", "out"});
+    REQUIRE(ended.exit_code == 0);
+    std::string const page = read_text(folder / "out" / "index.html");
+    for (char const* outside : {"http:", "https:", "url(", "@import", "<link", "src='/", "src=\""}) {
+        CAPTURE(outside);
+        CHECK_FALSE(has(page, outside));
+    }
+    CHECK(has(page, "data:image/png;base64,iVBOR"));
+    CHECK(has(page, "<svg"));
+    CHECK(has(page, "prefers-color-scheme: dark"));
+}
+
+TEST_CASE("the view and the light in results.json give the same samples and errors again", "[command]") {
+    TestFolder const folder;
+    std::string const scene = write_table(folder);
+    for (char const* extra : {"", "--camera front", "--sun 0.3,-1,0.2", "--eye 3,4,5 --look 0,0.1,0 --fov 40"}) {
+        CAPTURE(extra);
+        std::vector<std::string> first = {"compare", scene, "--repeats", "1", "--size", "64x48", "--out", "a"};
+        for (std::string const& word : words(extra)) first.push_back(word);
+        REQUIRE(gnomon_in(folder.path(), first).exit_code == 0);
+        json const a = results_in(folder / "a")["runs"][0];
+        std::vector<std::string> second = {"compare", scene, "--repeats", "1", "--out", "b"};
+        for (char const* key : {"view", "light"})
+            for (std::string const& word : words(a[key])) second.push_back(word);
+        REQUIRE(gnomon_in(folder.path(), second).exit_code == 0);
+        json const b = results_in(folder / "b")["runs"][0];
+        CHECK(a["error"] == b["error"]);
+        CHECK(a["view"] == b["view"]);
+        CHECK(a["light"] == b["light"]);
+    }
+}
+
+TEST_CASE("pictures and errors are the same for any number of threads", "[command]") {
+    TestFolder const folder;
+    std::string const scene = write_table(folder);
+    for (char const* threads : {"1", "3"})
+        REQUIRE(gnomon_in(folder.path(), {"compare", scene, "--threads", threads, "--size", "80x60", "--repeats", "1", "--out",
+                                          std::string("t") + threads}).exit_code == 0);
+    json const one = results_in(folder / "t1");
+    json const three = results_in(folder / "t3");
+    CHECK(three["runs"][0]["threads"] == 3);
+    for (std::size_t i = 0; i < one["runs"].size(); ++i) CHECK(one["runs"][i]["error"] == three["runs"][i]["error"]);
+    for (std::string const name : one["gnomon"]["files"])
+        if (name.ends_with(".png")) CHECK(read_text(folder / "t1" / name) == read_text(folder / "t3" / name));
+}
+
+TEST_CASE("render draws one picture a run, and JSON on standard output stands alone", "[command]") {
+    TestFolder const folder;
+    Ended const ended = gnomon_in(folder.path(), {"render", write_table(folder), "--size", "48x32", "--json", "-"});
+    CAPTURE(ended.err);
+    REQUIRE(ended.exit_code == 0);
+    json const results = json::parse(ended.out, nullptr, false);
+    REQUIRE(results.is_object());
+    CHECK(schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results).empty());
+    CHECK(has(ended.err, "shadow-map"));
+    CHECK(fs::exists(folder / "gnomon-render" / "shadow-map.png"));
+    CHECK_FALSE(fs::exists(folder / "gnomon-render" / "index.html"));
+    CHECK(gnomon_in(folder.path(), {"render", "table.glb", "--size", "8x8", "--json", "r.json"}).exit_code == 0);
+    CHECK(json::parse(read_text(folder / "r.json"), nullptr, false).is_object());
+}
+
+TEST_CASE("a view of nothing is a picture of the sky, not an error", "[command]") {
+    TestFolder const folder;
+    Ended const ended = gnomon_in(folder.path(), {"compare", write_table(folder), "--eye", "0,50,0", "--look", "0,90,0", "--size",
+                                                  "16x16", "--repeats", "1", "--out", "sky"});
+    CAPTURE(ended.err);
+    CHECK(ended.exit_code == 0);
+    CHECK(results_in(folder / "sky")["runs"][0]["error"]["samples"] == 0);
+}
+
+TEST_CASE("scenes lists, describes and writes", "[command]") {
+    TestFolder const folder;
+    Ended const list = gnomon_in(folder.path(), {"scenes"});
+    CHECK(list.exit_code == 0);
+    for (char const* name : {"city", "cubes", "rayyard", "sheet"}) CHECK(has(list.out, name));
+    REQUIRE(gnomon_in(folder.path(), {"scenes", "cubes", "--write", "c.glb"}).exit_code == 0);
+    Ended const built_in = gnomon_in(folder.path(), {"scenes", "cubes"});
+    Ended const file = gnomon_in(folder.path(), {"scenes", "c.glb"});
+    CHECK(file.exit_code == 0);
+    CHECK(built_in.out.substr(built_in.out.find('\n')) == file.out.substr(file.out.find('\n')));
+}
+
+TEST_CASE("info names techniques and their parameters", "[command]") {
+    TestFolder const folder;
+    Ended const info = gnomon_in(folder.path(), {"info"});
+    CHECK(info.exit_code == 0);
+    for (char const* part : {"shadow-map.resolution", "ray", "backends", "cpu", "fmt"}) CHECK(has(info.out, part));
+    CHECK(gnomon_in(folder.path(), {"--version"}).out == "gnomon " GNOMON_VERSION "\n");
+    CHECK(gnomon_in(folder.path(), {"compare", "--help"}).exit_code == 0);
+}
