@@ -667,26 +667,38 @@ template <class T>
     return from_rank<T>(rank < low ? low : rank > high ? high : rank);
 }
 
-/// An integer plus a fraction with few bits.
+/// A fraction with few bits after the point.
 template <class T>
 [[nodiscard]] T draw_dyadic(Choices& choices, std::int64_t reach) {
-    auto const whole = static_cast<T>(Integers<std::int64_t>{-reach, reach}(choices));
     std::uint64_t const digits = 1 + choices.draw(9);
-    auto const parts = static_cast<T>(std::uint64_t{1} << digits);
-    return whole + static_cast<T>(choices.draw((std::uint64_t{1} << digits) - 1)) / parts;
+    std::int64_t const parts = std::int64_t{1} << digits;
+    return static_cast<T>(Integers<std::int64_t>{-reach * parts, reach * parts}(choices)) / static_cast<T>(parts);
 }
 
+/// A landmark or a power of two, of either sign. One choice, so that other kinds of values can replace it.
 template <class T>
 [[nodiscard]] T draw_landmark(Choices& choices) {
-    bool const power = choices.chance(0x6000);
-    T value = T(0);
-    if (power) {
-        using Limits = std::numeric_limits<T>;
-        value = power_of_two<T>(Integers<int>{Limits::min_exponent - Limits::digits, Limits::max_exponent - 1}(choices));
-    } else {
-        value = landmarks<T>[choices.draw(landmark_count<T> - 1)];
-    }
-    return choices.chance(0x8000) ? -value : value;
+    using Limits = std::numeric_limits<T>;
+    constexpr int lowest = Limits::min_exponent - Limits::digits;
+    constexpr auto powers = static_cast<std::uint64_t>(Limits::max_exponent - lowest);
+    std::uint64_t const bits = choices.raw();
+    std::uint64_t const wish = (bits & 1) != 0 ? choices.uniform(landmark_count<T> - 1)
+                                               : landmark_count<T> + choices.uniform(powers - 1);
+    std::uint64_t const choice = choices.draw_as(2 * (landmark_count<T> + powers) - 1, 2 * wish + (bits >> 8) % 2);
+    std::uint64_t const index = choice / 2;
+    bool const is_power = index >= landmark_count<T>;
+    T const value = is_power ? power_of_two<T>(lowest + static_cast<int>(index - landmark_count<T>)) : landmarks<T>[index];
+    return (choice & 1) != 0 ? -value : value;
+}
+
+/// A part in [0, 1]: a coarse step, then a fine one.
+template <class T>
+[[nodiscard]] T draw_unit(Choices& choices) {
+    constexpr int fine_bits = std::numeric_limits<T>::digits - 12;
+    constexpr std::uint64_t steps = std::uint64_t{1} << fine_bits;
+    std::uint64_t const coarse = choices.draw(4096);
+    std::uint64_t const fine = choices.draw(steps - 1);
+    return (static_cast<T>(coarse) + (coarse < 4096 ? static_cast<T>(fine) / static_cast<T>(steps) : T(0))) / T(4096);
 }
 
 }  // namespace detail
@@ -698,15 +710,16 @@ struct Floats {
     using value_type = T;
     T lo, hi;
 
+    // Every kind draws two choices more, the simplest one, so that the shrinker can go to any simpler kind.
     [[nodiscard]] T operator()(Choices& choices) const {
         static constexpr unsigned char odds[16] = {0, 1, 2, 2, 3, 3, 4, 5, 5, 5, 5, 5, 5, 5, 5, 5};
         switch (choices.draw_as(5, odds[choices.raw() & 15])) {
             case 0: return clamp(whole(choices));
             case 1: return clamp(detail::draw_dyadic<T>(choices, 1024));
-            case 2: return detail::nudge(choices, choices.chance(0x8000) ? hi : lo, lo, hi);
+            case 2: return detail::nudge(choices, choices.draw(1) != 0 ? hi : lo, lo, hi);
             case 3: return detail::nudge(choices, clamp(detail::draw_landmark<T>(choices)), lo, hi);
-            case 4: return detail::from_rank<T>(Integers<std::int64_t>{detail::rank_of(lo), detail::rank_of(hi)}(choices));
-            default: return clamp(uniform(choices));
+            case 4: return any_magnitude(choices);
+            default: return clamp(uniform(detail::draw_unit<T>(choices)));
         }
     }
 
@@ -719,14 +732,15 @@ private:
         T const high = hi > limit ? limit : hi < -limit ? -limit : hi;
         return static_cast<T>(integers(static_cast<std::int64_t>(low), static_cast<std::int64_t>(high))(choices));
     }
-    [[nodiscard]] T uniform(Choices& choices) const {
-        constexpr int digits = std::numeric_limits<T>::digits;
-        constexpr std::uint64_t steps = std::uint64_t{1} << digits;
-        T const t = static_cast<T>(choices.draw(steps)) / static_cast<T>(steps);
-        return lo >= T(0) || hi <= T(0) ? outwards(t) : lo * (T(1) - t) + hi * t;
+    [[nodiscard]] T any_magnitude(Choices& choices) const {
+        static_cast<void>(choices.draw(0));
+        return detail::from_rank<T>(Integers<std::int64_t>{detail::rank_of(lo), detail::rank_of(hi)}(choices));
     }
-    [[nodiscard]] T outwards(T t) const {  // away from zero, so that small choices are small values
-        return lo >= T(0) ? lo * (T(1) - t) + hi * t : hi * (T(1) - t) + lo * t;
+    [[nodiscard]] T uniform(T t) const {  // away from zero where there is one side, so that small choices are small values
+        bool const downwards = lo < T(0) && hi <= T(0);
+        T const from = downwards ? hi : lo;
+        T const to = downwards ? lo : hi;
+        return from * (T(1) - t) + to * t;
     }
 };
 
@@ -756,22 +770,27 @@ struct AnyFloat {
         switch (choices.draw_as(last, wish < last ? wish : last)) {
             case 0: return static_cast<T>(Integers<int>{-(1 << 24), 1 << 24}(choices));
             case 1: return detail::draw_dyadic<T>(choices, 1024);
-            case 2: return sign(choices) * (T(1e7) + detail::draw_dyadic<T>(choices, 64));
+            case 2: return far_away(choices);
             case 3: return detail::nudge(choices, detail::draw_landmark<T>(choices), Limits::lowest(), Limits::max());
-            case 4: {
-                constexpr std::int64_t top = detail::rank_of(Limits::max());
-                return detail::from_rank<T>(Integers<std::int64_t>{-top - 1, top}(choices));
-            }
+            case 4: return any_bits(choices);
             default: return special(choices);
         }
     }
 
 private:
-    [[nodiscard]] static T sign(Choices& choices) { return choices.chance(0x8000) ? T(-1) : T(1); }
+    [[nodiscard]] static T far_away(Choices& choices) {  // 1e7 plus or minus a little, of either sign
+        T const little = detail::draw_dyadic<T>(choices, 128);
+        return little < T(0) ? little - T(1e7) + T(64) : little + T(1e7) - T(64);
+    }
+    [[nodiscard]] static T any_bits(Choices& choices) {
+        constexpr std::int64_t top = detail::rank_of(std::numeric_limits<T>::max());
+        static_cast<void>(choices.draw(0));
+        return detail::from_rank<T>(Integers<std::int64_t>{-top - 1, top}(choices));
+    }
     [[nodiscard]] T special(Choices& choices) const {
         using Limits = std::numeric_limits<T>;
-        bool const is_nan = nan && (!inf || choices.chance(0x8000));
-        return is_nan ? Limits::quiet_NaN() : sign(choices) * Limits::infinity();
+        bool const is_nan = nan && (!inf || choices.draw(1) != 0);
+        return is_nan ? Limits::quiet_NaN() : choices.draw(1) != 0 ? -Limits::infinity() : Limits::infinity();
     }
 };
 
@@ -2010,7 +2029,7 @@ using Catch::Approx;
     struct GNOMON_CHECK_JOIN(function, _all);                                                       \
     template <template <class...> class List, class... Ts>                                          \
     struct GNOMON_CHECK_JOIN(function, _all)<List<Ts...>> {                                         \
-        static constexpr void (*run[])() = {&function<Ts>...};                                      \
+        static constexpr void (*run[sizeof...(Ts)])() = {&function<Ts>...};                         \
     };                                                                                              \
     ::gnomon::check::detail::TypedRegistrar<::gnomon::check::detail::list_size<list>> GNOMON_CHECK_JOIN(function, _r)( \
         __FILE__, __LINE__, types, {name, tags}, GNOMON_CHECK_JOIN(function, _all)<list>::run);      \
@@ -2112,6 +2131,8 @@ void put_shortest(Text& out, T value, int most_digits, Parse parse) {
         std::snprintf(buffer, sizeof buffer, "%.*Lg", digits, static_cast<long double>(value));
         if (parse(buffer) == value) break;
     }
+    if (std::strstr(buffer, "e+") && value < T(1e15) && value > T(-1e15))  // 1e+01 is not what one wants to read
+        std::snprintf(buffer, sizeof buffer, "%.0Lf", static_cast<long double>(value));
     out.append(buffer);
     if (!std::strpbrk(buffer, ".en")) out.append(".0");
 }
@@ -2310,8 +2331,22 @@ private:
             if (!attempt_at(i, middle)) passes = middle;
             if (i < best_.used.size() && best_.used[i] <= passes) return;
         }
+        if (i < best_.used.size() && best_.used[i] <= 8) change_kind(i);
         // Not every failure is monotone: the zigzag of integers makes pairs (+n, -n).
         if (i < best_.used.size() && best_.used[i] > 2) attempt_at(i, best_.used[i] - 2);
+    }
+    // A small choice may be a kind of value: try each simpler kind with amounts of all sizes behind it.
+    void change_kind(std::size_t i) {
+        for (std::uint64_t kind = 0; i + 1 < best_.used.size() && kind < best_.used[i]; ++kind) {
+            for (unsigned power = 0; power < 54; power += power < 6 ? 1 : 4) {
+                for (std::uint64_t odd = 0; odd < 2; ++odd) {
+                    Values values = best_.used;
+                    values[i] = kind;
+                    values[i + 1] = (std::uint64_t{1} << power) - odd;
+                    if (attempt(std::move(values))) return;
+                }
+            }
+        }
     }
     // Moves an amount from one choice to a later one: for sums.
     void shift_between() {
@@ -2363,7 +2398,9 @@ public:
 
 private:
     Hot before_;
-    void* capture_ = nullptr;
+#if defined(GNOMON_CHECK_USE_CATCH2)
+    Catch::IResultCapture* capture_ = nullptr;
+#endif
 };
 
 // Runs f, which returns false or sets hot().case_failed to fail, or throws.
