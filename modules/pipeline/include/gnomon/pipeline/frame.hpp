@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,15 +32,18 @@ struct StageTime {
 
 /// The samples of a frame, one entry per covered pixel in row order; every list has `size()` entries.
 struct Samples {
-    std::vector<std::uint32_t> pixel;       ///< y * width + x.
-    std::vector<std::uint32_t> triangle;    ///< Index into the geometry's triangle list.
-    std::vector<math::vec3> position;       ///< Work space: metres from the geometry's origin.
-    std::vector<math::vec3> normal;         ///< Unit geometric normal, toward the eye.
-    std::vector<math::vec3> shading_normal; ///< Unit, interpolated; on the eye's side of the surface.
-    std::vector<math::vec2> uv;             ///< Base colour texture coordinates.
+    std::vector<std::uint32_t> pixel;        ///< y * width + x.
+    std::vector<std::uint32_t> triangle;     ///< Index into the geometry's triangle list.
+    std::vector<math::vec3> position;        ///< Work space: metres from the geometry's origin.
+    std::vector<math::vec3> normal;          ///< Unit geometric normal, toward the eye.
+    std::vector<math::vec3> shading_normal;  ///< Unit, interpolated; on the eye's side of the surface.
+    std::vector<math::vec2> uv;              ///< Base colour texture coordinates.
 
     [[nodiscard]] std::size_t size() const noexcept { return pixel.size(); }
 };
+
+/// What a frame keeps for itself: the triangle list, the truth's hierarchy, alpha tables.
+struct FrameState;
 
 /// expects: `scene` and `geometry` outlive the frame.
 struct Frame {
@@ -53,9 +57,11 @@ struct Frame {
     Samples samples;
     std::vector<std::uint32_t> sample_of_pixel;  ///< `no_sample` for the background.
     std::vector<std::uint8_t> lit;               ///< The truth: 1 lit, 0 in shadow; one per sample.
-    std::uint64_t bad_triangles = 0;             ///< Left out: a vertex is not finite, or an index out of range.
-    std::uint64_t triangles_drawn = 0;           ///< Of the camera pass.
-    std::vector<StageTime> stages;               ///< camera_pass, samples, truth_build, truth_trace.
+    std::vector<std::uint8_t> reached;  ///< 0: beyond the light's range or cone, so not lit whatever stands between.
+    std::uint64_t bad_triangles = 0;    ///< Left out: a vertex is not finite, or an index out of range.
+    std::uint64_t triangles_drawn = 0;  ///< Of the camera pass.
+    std::shared_ptr<FrameState const> state;
+    std::vector<StageTime> stages;  ///< camera_pass, samples, truth_build, truth_trace.
 };
 
 /// Draws the camera pass, places the view samples and traces the truth.

@@ -25,9 +25,10 @@ struct Measures {
     std::uint64_t wrong = 0;         ///< State (visibility >= 0.5 is lit) differs from the truth.
     std::uint64_t false_lit = 0;     ///< Lit, truly in shadow.
     std::uint64_t false_shadow = 0;  ///< In shadow, truly lit.
-    std::uint64_t acne = 0;          ///< Of false_shadow: blocked by the sample's own triangle or one that shares a vertex position.
-    std::uint64_t detachment = 0;    ///< Of false_lit: the nearest true blocker lies within the bias applied there.
-    double wrong_fraction = 0.0;     ///< wrong / samples; 0 without samples.
+    std::uint64_t acne =
+        0;  ///< Of false_shadow: blocked by the sample's own triangle or one that shares a vertex position.
+    std::uint64_t detachment = 0;        ///< Of false_lit: the nearest true blocker lies within the bias applied there.
+    double wrong_fraction = 0.0;         ///< wrong / samples; 0 without samples.
     double visibility_error_mean = 0.0;  ///< Of |visibility - truth|.
     double visibility_error_p99 = 0.0;
     EdgeError edge_px;

@@ -50,8 +50,8 @@ struct Progress {
 };
 
 struct CompareConfig {
-    int repeats = 1;      ///< Timed runs of each request; at least 1.
-    bool images = true;   ///< Fill `lit` and `overlay`.
+    int repeats = 1;     ///< Timed runs of each request; at least 1.
+    bool images = true;  ///< Fill `lit` and `overlay`.
     ShadeConfig shading;
     Progress progress;
 };

@@ -13,9 +13,9 @@
 namespace gnomon::pipeline {
 
 struct ShadeConfig {
-    float exposure = 0.0F;        ///< Multiplies the linear radiance; 0 picks it from the scene, without shadows.
-    float ambient = 0.35F;        ///< The sky's strength relative to the light's on a surface that faces it.
-    float specular = 0.04F;       ///< Blinn-Phong reflectance.
+    float exposure = 0.0F;   ///< Multiplies the linear radiance; 0 picks it from the scene, without shadows.
+    float ambient = 0.35F;   ///< The sky's strength relative to the light's on a surface that faces it.
+    float specular = 0.04F;  ///< Blinn-Phong reflectance.
     float shininess = 32.0F;
     math::vec3 sky_color{0.62F, 0.75F, 1.0F};
     math::vec3 ground_color{0.36F, 0.32F, 0.28F};

@@ -6,6 +6,7 @@
 #include <gnomon/pipeline/frame.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,8 +27,8 @@ struct ParamInfo {
     std::string_view default_text;  ///< As a user would write it.
     double min = 0.0;               ///< Numbers: the legal range, inclusive.
     double max = 0.0;
-    std::string_view unit;                         ///< "texels", "m", "" ...
-    std::span<std::string_view const> choices;     ///< Choices: every legal word. Integers: the legal values, if few.
+    std::string_view unit;                      ///< "texels", "m", "" ...
+    std::span<std::string_view const> choices;  ///< Choices: every legal word. Integers: the legal values, if few.
     std::string_view doc;
 };
 
@@ -62,12 +63,28 @@ struct Count {
 
 /// What a technique gives: per sample and in total.
 struct TechniqueOutput {
-    std::vector<float> visibility;        ///< In [0, 1], one per sample; 1 is lit.
-    std::vector<float> bias_m;            ///< How far the occluder test was moved toward the light; empty: nowhere.
-    std::vector<std::uint8_t> own_hit;    ///< 1: what blocks here is the sample's own or an adjoining triangle; or empty.
-    std::vector<StageTime> stages;        ///< In order; their sum is the run's time.
-    std::vector<Count> counts;            ///< By the names of design section 10.
+    std::vector<float> visibility;      ///< In [0, 1], one per sample; 1 is lit.
+    std::vector<float> bias_m;          ///< How far the occluder test was moved toward the light; empty: nowhere.
+    std::vector<std::uint8_t> own_hit;  ///< 1: what blocks here is the sample's own or an adjoining triangle; or empty.
+    std::vector<StageTime> stages;      ///< In order; their sum is the run's time.
+    std::vector<Count> counts;          ///< By the names of design section 10.
     std::vector<Count> bytes;
+};
+
+/// Maps and scratch that a technique works in. Kept between runs it stops growing: after the first nothing is
+/// allocated.
+class Workspace {
+  public:
+    Workspace();
+    ~Workspace();
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+
+    struct State;
+    [[nodiscard]] State& state() noexcept { return *state_; }
+
+  private:
+    std::unique_ptr<State> state_;
 };
 
 /// A technique. Plain data: the table is the only registry.
@@ -75,9 +92,11 @@ struct Technique {
     std::string_view name;
     std::string_view summary;  ///< One line.
     std::span<ParamInfo const> params;
-    Result<TechniqueOutput> (*run)(Frame const& frame, Params const& params, core::ExecutorRef executor);
-    /// Un-timed extra for the measures (`own_hit`); null where it does not apply.
-    void (*examine)(Frame const& frame, Params const& params, core::ExecutorRef executor, TechniqueOutput& output);
+    Result<TechniqueOutput> (*run)(Frame const& frame, Params const& params, Workspace& workspace,
+                                   core::ExecutorRef executor);
+    /// Un-timed extra for the measures, straight after `run`: fills `own_hit`. Null where there is nothing to add.
+    void (*examine)(Frame const& frame, Params const& params, Workspace& workspace, core::ExecutorRef executor,
+                    TechniqueOutput& output);
 };
 
 /// Every technique there is.

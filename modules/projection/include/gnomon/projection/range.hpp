@@ -38,11 +38,12 @@ struct DepthRange {
 /// The same factor serves spots up to a half angle of 54.7 degrees; wider ones pass `widest_cos` = cos(window's
 /// corner).
 ///
-/// returns: 0 < near < far always; (2^-17, 1) m for senseless distances, so that a view can still be made.
+/// returns: 0 < near < far always; (2^-17, 1) m where the far distance is not in (1e-30, 1e30) m, so that a view can
+/// still be made.
 [[nodiscard]] inline DepthRange depth_range(double nearest_m, double farthest_m, double range_m,
                                             double widest_cos = 0.57735026918962573) noexcept {
     double const beyond = farthest_m < range_m ? farthest_m : range_m;
-    double const far_m = beyond > 0.0 && std::isfinite(beyond) ? beyond * 1.001 : 1.0;
+    double const far_m = beyond > 1e-30 && beyond < 1e30 ? beyond * 1.001 : 1.0;
     double const least = std::ldexp(far_m, -16);
     double const near_m = nearest_m * widest_cos * 0.999;
     if (!(near_m > least)) return {least, far_m};

@@ -28,7 +28,7 @@ struct BiasConfig {
 
 struct Bias {
     float depth = 0.0F;   ///< Toward the light, as the map stores depth.
-    float metres = 0.0F;  ///< The same, along the map's axis of sight.
+    float metres = 0.0F;  ///< The same, along the light's ray.
 };
 
 namespace detail {
@@ -91,7 +91,7 @@ inline constexpr float half_ulp = 5.9604645e-8F;  ///< 2^-24
     Bias bias;
     bias.depth = depth_of_move(map, at, (config.constant + config.slope * tangent) * unit_m);
     if (config.automatic) bias.depth += automatic_bias(map, at, position, taps, config.receiver_plane);
-    bias.metres = bias.depth / at.depth_per_m;
+    bias.metres = bias.depth / at.depth_per_m * at.per_axis;
     return bias;
 }
 

@@ -9,6 +9,7 @@
 #include <gnomon/shadow/map_view.hpp>
 #include <gnomon/shadow/receiver.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,6 +30,13 @@ struct Texels {
 [[nodiscard]] inline float depth_of(std::uint16_t texel) noexcept {
     return static_cast<float>(texel) * (1.0F / 65535.0F);
 }
+
+/// Anything that can give the texel at (x, y): memory, an atlas tile, a page table, a formula.
+template <class S>
+concept TexelSource = requires(S const& source, std::int32_t i) {
+    { depth_of(source.at(i, i)) }
+    noexcept->std::same_as<float>;
+};
 
 struct LookupConfig {
     BiasConfig bias;
@@ -78,8 +86,8 @@ struct Prepared {
 }
 
 /// Calls `visit(x, y, weight, blocked)` for every texel of the filter that lies in the map.
-template <class T, class Visit>
-void for_each_tap(MapView const& map, Texels<T> texels, Prepared const& ready, int taps, Visit&& visit) noexcept {
+template <TexelSource Source, class Visit>
+void for_each_tap(MapView const& map, Source const& texels, Prepared const& ready, int taps, Visit&& visit) noexcept {
     TapRow const columns = taps_at(ready.receiver.texel.x, taps);
     TapRow const rows = taps_at(ready.receiver.texel.y, taps);
     auto const width = static_cast<std::int32_t>(map.size_px.x);
@@ -105,9 +113,9 @@ void for_each_tap(MapView const& map, Texels<T> texels, Prepared const& ready, i
 /// expects: `texels` were drawn with `map`'s view and format; 1 <= taps <= `max_taps`.
 /// returns: 1 outside the map and for a position that is not finite; 0 where the plane faces away.
 /// cost:    O(taps^2)
-template <class T>
-[[nodiscard]] Lookup look_up(MapView const& map, Texels<T> texels, math::vec3 const& position, math::vec3 const& normal,
-                             LookupConfig const& config) noexcept {
+template <TexelSource Source>
+[[nodiscard]] Lookup look_up(MapView const& map, Source const& texels, math::vec3 const& position,
+                             math::vec3 const& normal, LookupConfig const& config) noexcept {
     Prepared const ready = prepare(map, position, normal, config);
     if (ready.faces_away) return {0.0F, 0.0F};
     if (!ready.receiver.in_front) return {1.0F, ready.bias_m};

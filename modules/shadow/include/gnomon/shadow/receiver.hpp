@@ -17,6 +17,7 @@ struct Receiver {
     float depth = 0.0F;         ///< As the map stores it, not clamped.
     math::vec2 gradient{0.0F};  ///< Depth of the receiver's plane per texel to the right and down.
     float distance_m = 0.0F;    ///< Along the map's axis of sight.
+    float per_axis = 1.0F;      ///< Metres along the light's ray for each along the axis of sight.
     float texel_m = 0.0F;       ///< World size of a texel here, the longer side.
     float depth_per_m = 0.0F;   ///< |d depth / d distance| here.
     float cos_angle = 0.0F;     ///< Of the normal with the direction to the light; < 0: the plane faces away.
@@ -54,6 +55,7 @@ struct Receiver {
     float const h = glm::dot(normal, relative);
     float const nb = glm::dot(normal, map.back);
     at.cos_angle = map.perspective ? -h / reach : nb;
+    at.per_axis = map.perspective ? reach / distance : 1.0F;
     at.texel_m = map.perspective ? longest * distance : longest;
     at.depth_per_m = map.perspective ? std::abs(map.depth_offset) / (distance * distance) : std::abs(map.depth_scale);
 

@@ -1,0 +1,89 @@
+// Runs requests on a frame and turns them into reports.
+
+#include "detail.hpp"
+
+#include <gnomon/pipeline/report.hpp>
+
+#include <algorithm>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    std::size_t const n = values.size();
+    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+/// Sums and medians of the repeats' stages; every repeat has the same stages.
+void summarize(std::vector<std::vector<StageTime>> const& repeats, RunReport& report) {
+    std::vector<double> totals;
+    for (auto const& stages : repeats) {
+        double total = 0.0;
+        for (StageTime const& stage : stages) total += stage.ms;
+        totals.push_back(total);
+    }
+    report.ms = {median(totals), *std::min_element(totals.begin(), totals.end()),
+                 *std::max_element(totals.begin(), totals.end())};
+    for (std::size_t s = 0; s < repeats.front().size(); ++s) {
+        std::vector<double> times;
+        for (auto const& stages : repeats) times.push_back(stages[s].ms);
+        report.stages.push_back({repeats.front()[s].name, median(times)});
+    }
+}
+
+Result<RunReport> run_one(Frame const& frame, RunRequest const& request, CompareConfig const& config,
+                          Shading const& shading, core::ExecutorRef executor) {
+    RunReport report;
+    report.technique = std::string(request.technique->name);
+    report.params = request.params.values;
+    Workspace workspace;
+    std::vector<std::vector<StageTime>> repeats;
+    TechniqueOutput output;
+    for (int i = 0; i < std::max(config.repeats, 1); ++i) {
+        auto result = request.technique->run(frame, request.params, workspace, executor);
+        if (!result) return std::move(result).failure();
+        output = std::move(result).value();
+        repeats.push_back(output.stages);
+    }
+    if (request.technique->examine != nullptr)
+        request.technique->examine(frame, request.params, workspace, executor, output);
+    summarize(repeats, report);
+    report.error = measure(frame, output, executor);
+    report.error.radiance_error = radiance_error(frame, shading, output.visibility);
+    report.counts = output.counts;
+    report.bytes = output.bytes;
+    if (config.images) {
+        report.lit = picture(frame, shading, output.visibility);
+        report.overlay = error_overlay(frame, shading, output.visibility);
+    }
+    return report;
+}
+
+}  // namespace
+
+Result<Comparison> compare(Frame const& frame, std::span<RunRequest const> requests, CompareConfig const& config,
+                           core::ExecutorRef executor) {
+    int const total = static_cast<int>(requests.size()) + 1;
+    auto const progress = [&](int done, std::string_view what) {
+        if (config.progress.report != nullptr) config.progress.report(config.progress.context, done, total, what);
+    };
+    Comparison comparison;
+    comparison.samples = frame.samples.size();
+    for (std::uint8_t const lit : frame.lit) comparison.truly_lit += lit;
+    progress(0, "shading");
+    Shading const shading = shade(frame, config.shading, executor);
+    if (config.images) comparison.exact = picture(frame, shading, exact_visibility(frame));
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        GNOMON_EXPECT(requests[i].technique != nullptr);
+        progress(static_cast<int>(i) + 1, requests[i].technique->name);
+        auto report = run_one(frame, requests[i], config, shading, executor);
+        if (!report) return std::move(report).failure();
+        comparison.runs.push_back(std::move(report).value());
+    }
+    progress(total, "done");
+    return comparison;
+}
+
+}  // namespace gnomon::pipeline

@@ -1,0 +1,69 @@
+#pragma once
+// What the pipeline's sources share among themselves.
+
+#include <gnomon/core/executor.hpp>
+#include <gnomon/pipeline/frame.hpp>
+#include <gnomon/pipeline/technique.hpp>
+#include <gnomon/raster/draw.hpp>
+#include <gnomon/raster/pass.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// Items of a per-sample loop that one task takes.
+inline constexpr std::size_t sample_grain = 4096;
+
+/// Milliseconds since it was made or last asked.
+class Stopwatch {
+  public:
+    [[nodiscard]] double lap_ms() {
+        auto const now = std::chrono::steady_clock::now();
+        double const ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The draws of a frame's geometry. Solid triangles go in as few as possible, masked ones by their texture.
+struct DrawList {
+    std::vector<raster::AlphaTest> alpha_tests;  ///< Pointed to by `draws`; filled first.
+    std::vector<raster::Draw> draws;
+
+    /// The same triangles for another view.
+    void look_from(math::View const& view, math::dvec3 const& origin_m);
+};
+
+/// Which way of facing is left out; triangles of double-sided materials never are.
+[[nodiscard]] DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull);
+
+/// How a material's alpha cuts holes.
+struct AlphaRule {
+    bool tested = false;   ///< Otherwise all solid.
+    bool nothing = false;  ///< Untextured and below the cutoff: not there at all.
+    double cutoff = 0.5;
+};
+[[nodiscard]] AlphaRule alpha_rule(scene::Scene const& scene, scene::Material const& material) noexcept;
+
+/// Its base colour image; null without a texture.
+[[nodiscard]] scene::Texture const* base_texture(scene::Scene const& scene, scene::Material const& material) noexcept;
+[[nodiscard]] scene::Image const* base_image(scene::Scene const& scene, scene::Material const& material) noexcept;
+
+/// Unit vector from a work-space position to the frame's light.
+[[nodiscard]] math::vec3 toward_light(Frame const& frame, math::vec3 const& position) noexcept;
+
+/// Number of samples whose false-lit state the applied bias explains.
+[[nodiscard]] std::uint64_t count_detached(Frame const& frame, TechniqueOutput const& output,
+                                           core::ExecutorRef executor);
+
+[[nodiscard]] Technique shadow_map_technique() noexcept;
+[[nodiscard]] Technique ray_technique() noexcept;
+
+}  // namespace gnomon::pipeline

@@ -1,0 +1,103 @@
+// A frame's geometry as the backend's draws, and what alpha means.
+
+#include "detail.hpp"
+
+#include <gnomon/scene/flatten.hpp>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+raster::Wrap wrap_of(scene::Wrap wrap) noexcept {
+    switch (wrap) {
+        case scene::Wrap::clamp_to_edge: return raster::Wrap::clamp;
+        case scene::Wrap::mirrored_repeat: return raster::Wrap::mirror;
+        case scene::Wrap::repeat: break;
+    }
+    return raster::Wrap::repeat;
+}
+
+raster::Draw draw_of(scene::Geometry const& geometry, std::uint32_t first, std::uint32_t count) {
+    raster::Draw draw;
+    draw.positions = std::span<math::vec3 const>(geometry.positions);
+    draw.indices =
+        std::span<std::uint32_t const>(geometry.indices).subspan(std::size_t{first} * 3, std::size_t{count} * 3);
+    draw.first_triangle = first;
+    return draw;
+}
+
+}  // namespace
+
+scene::Texture const* base_texture(scene::Scene const& scene, scene::Material const& material) noexcept {
+    std::uint32_t const texture = material.base_color_texture.texture;
+    return texture < scene.textures.size() ? &scene.textures[texture] : nullptr;
+}
+
+scene::Image const* base_image(scene::Scene const& scene, scene::Material const& material) noexcept {
+    scene::Texture const* const texture = base_texture(scene, material);
+    if (texture == nullptr || texture->image >= scene.images.size()) return nullptr;
+    scene::Image const& image = scene.images[texture->image];
+    return image.rgba.empty() ? nullptr : &image;
+}
+
+AlphaRule alpha_rule(scene::Scene const& scene, scene::Material const& material) noexcept {
+    AlphaRule rule;
+    // Blended surfaces count as masked at one half: what is mostly there blocks, what is mostly glass does not.
+    if (material.alpha_mode == scene::AlphaMode::opaque) return rule;
+    rule.cutoff = material.alpha_mode == scene::AlphaMode::mask ? static_cast<double>(material.alpha_cutoff) : 0.5;
+    bool const textured = base_image(scene, material) != nullptr;
+    rule.tested = textured;
+    rule.nothing = !textured && static_cast<double>(material.base_color.w) < rule.cutoff;
+    return rule;
+}
+
+DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull) {
+    DrawList list;
+    std::vector<std::pair<std::size_t, std::size_t>> tested;  // draw, alpha test: pointers once the list stops moving
+    for (scene::Range const& range : geometry.ranges) {
+        scene::Material const& material = scene.materials[range.material];
+        AlphaRule const rule = alpha_rule(scene, material);
+        if (rule.nothing || range.triangle_count == 0) continue;
+        raster::Draw draw = draw_of(geometry, range.first_triangle, range.triangle_count);
+        draw.cull = material.double_sided ? raster::Cull::none : cull;
+        bool const follows =
+            !list.draws.empty() && !rule.tested && list.draws.back().cull == draw.cull &&
+            (tested.empty() || tested.back().first + 1 != list.draws.size()) &&
+            list.draws.back().first_triangle + raster::triangle_count(list.draws.back()) == range.first_triangle;
+        if (follows) {
+            std::uint32_t const first = list.draws.back().first_triangle;
+            list.draws.back() = draw_of(geometry, first, range.first_triangle - first + range.triangle_count);
+            list.draws.back().cull = draw.cull;
+            continue;
+        }
+        if (rule.tested) {
+            scene::Image const& image = *base_image(scene, material);
+            scene::Texture const& texture = *base_texture(scene, material);
+            raster::AlphaTest test;
+            test.uv = std::span<math::vec2 const>(geometry.uv);
+            test.texture = {image.rgba.data() + 3,
+                            image.size_px.x,
+                            image.size_px.y,
+                            4,
+                            std::ptrdiff_t{4} * image.size_px.x,
+                            wrap_of(texture.wrap_u),
+                            wrap_of(texture.wrap_v)};
+            test.factor = static_cast<double>(material.base_color.w);
+            test.cutoff = rule.cutoff;
+            tested.emplace_back(list.draws.size(), list.alpha_tests.size());
+            list.alpha_tests.push_back(test);
+        }
+        list.draws.push_back(draw);
+    }
+    for (auto const& [draw, test] : tested) list.draws[draw].alpha_test = &list.alpha_tests[test];
+    return list;
+}
+
+void DrawList::look_from(math::View const& view, math::dvec3 const& origin_m) {
+    for (raster::Draw& draw : draws) {
+        draw.origin = math::to_float(view.eye_m - origin_m);
+        draw.clip_from_relative = math::clip_from_relative(view);
+    }
+}
+
+}  // namespace gnomon::pipeline

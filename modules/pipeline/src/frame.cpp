@@ -1,0 +1,220 @@
+// Builds a frame: camera pass, view samples with their surfaces, and the truth.
+
+#include "detail.hpp"
+#include "frame_state.hpp"
+
+#include <gnomon/pipeline/image.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+/// A vector of any length as a float direction: rounded as it is where that loses nothing but bits.
+math::vec3 float_direction(math::dvec3 const& v) noexcept {
+    double const largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    bool const ordinary = largest > 1e-12 && largest < 1e12;
+    return math::to_float(ordinary ? v : v / largest);
+}
+
+Result<core::Done> validate_frame(scene::Geometry const& geometry, math::View const& view, Light const& light) {
+    if (auto ok = validate(light); !ok) return ok;
+    if (view.size_px.x < 1 || view.size_px.y < 1 || view.size_px.x > raster::max_size_px ||
+        view.size_px.y > raster::max_size_px)
+        return core::Failure{Error::bad_view,
+                             "the image is " + std::to_string(view.size_px.x) + "x" + std::to_string(view.size_px.y) +
+                                 " pixels; each side must be from 1 to " + std::to_string(raster::max_size_px)};
+    if (!math::is_finite(view.eye_m) || !math::is_finite(math::to_float(view.eye_m - geometry.origin_m)))
+        return core::Failure{Error::bad_view, "the camera's eye (" + std::to_string(view.eye_m.x) + ", " +
+                                                  std::to_string(view.eye_m.y) + ", " + std::to_string(view.eye_m.z) +
+                                                  ") m is not a finite float away from the scene"};
+    if (geometry.indices.size() < 3 || math::is_empty(geometry.bounds))
+        return core::Failure{Error::empty_scene, "the scene has no triangle to draw"};
+    if (!math::is_finite(math::to_float(light.position_m - geometry.origin_m)) && light.kind != LightKind::directional)
+        return core::Failure{Error::bad_light, "the light is too far away: its position is not a finite float"};
+    return core::Done{};
+}
+
+/// Weights of a triangle's corners at a point of its plane, from areas; a triangle without area takes its first corner.
+math::dvec3 corner_weights(math::dvec3 const& a, math::dvec3 const& b, math::dvec3 const& c, math::dvec3 const& p) {
+    math::dvec3 const normal = glm::cross(b - a, c - a);
+    double const area = glm::dot(normal, normal);
+    if (!(area > 0.0)) return math::dvec3(1.0, 0.0, 0.0);
+    double const wb = glm::dot(glm::cross(p - a, c - a), normal) / area;
+    double const wc = glm::dot(glm::cross(b - a, p - a), normal) / area;
+    return math::dvec3(1.0 - wb - wc, wb, wc);
+}
+
+math::vec3 unit_or(math::dvec3 const& v, math::dvec3 const& fallback) noexcept {
+    double const length = glm::length(v);
+    return math::to_float(length > 0.0 && std::isfinite(length) ? v / length : fallback);
+}
+
+/// Fills entry `i` of everything that a sample's surface has.
+void describe(Frame& frame, predicates::Target const& eye, std::size_t i) {
+    scene::Geometry const& g = *frame.geometry;
+    std::uint32_t const* const corner = g.indices.data() + std::size_t{frame.samples.triangle[i]} * 3;
+    math::dvec3 const a = math::to_double(g.positions[corner[0]]);
+    math::dvec3 const b = math::to_double(g.positions[corner[1]]);
+    math::dvec3 const c = math::to_double(g.positions[corner[2]]);
+    math::dvec3 const p = math::to_double(frame.samples.position[i]);
+    math::dvec3 const sight = eye.at_infinity ? math::to_double(eye.xyz) : math::to_double(eye.xyz) - a;
+    math::dvec3 normal = glm::cross(b - a, c - a);
+    if (glm::dot(normal, sight) < 0.0) normal = -normal;
+    frame.samples.normal[i] = unit_or(normal, glm::normalize(sight));
+    math::dvec3 const w = corner_weights(a, b, c, p);
+    math::dvec3 shading(0.0);
+    math::dvec2 uv(0.0);
+    for (int k = 0; k < 3; ++k) {
+        std::uint32_t const v = corner[k];
+        if (v < g.normals.size()) shading += math::to_double(g.normals[v]) * w[k];
+        if (v < g.uv.size()) uv += math::dvec2(static_cast<double>(g.uv[v].x), static_cast<double>(g.uv[v].y)) * w[k];
+    }
+    if (glm::dot(shading, math::to_double(frame.samples.normal[i])) < 0.0) shading = -shading;
+    frame.samples.shading_normal[i] = unit_or(shading, math::to_double(frame.samples.normal[i]));
+    frame.samples.uv[i] = math::vec2(static_cast<float>(uv.x), static_cast<float>(uv.y));
+}
+
+/// Whether the light's range and cone hold the sample.
+bool is_reached(Frame const& frame, std::size_t i) noexcept {
+    if (frame.light.kind == LightKind::directional) return true;
+    math::dvec3 const away = math::to_double(frame.samples.position[i]) - math::to_double(frame.light_position);
+    double const distance = glm::length(away);
+    if (distance > static_cast<double>(frame.light.range_m)) return false;
+    if (frame.light.kind == LightKind::point) return true;
+    double const cosine = glm::dot(away, glm::normalize(frame.light.direction));
+    return cosine >= distance * std::cos(static_cast<double>(frame.light.outer_cone_rad));
+}
+
+/// Compacts the image's view samples into the frame's lists.
+void gather(Frame& frame, FrameState& state, std::vector<sample::ViewSample> const& image, core::ExecutorRef executor) {
+    Samples& s = frame.samples;
+    frame.sample_of_pixel.assign(image.size(), no_sample);
+    for (std::size_t pixel = 0; pixel < image.size(); ++pixel) {
+        if (image[pixel].triangle.is_none()) continue;
+        frame.sample_of_pixel[pixel] = static_cast<std::uint32_t>(s.pixel.size());
+        s.pixel.push_back(static_cast<std::uint32_t>(pixel));
+        s.triangle.push_back(image[pixel].triangle.value);
+        s.position.push_back(image[pixel].position);
+        state.samples.push_back(image[pixel]);
+    }
+    std::size_t const n = s.size();
+    s.normal.resize(n);
+    s.shading_normal.resize(n);
+    s.uv.resize(n);
+    frame.reached.resize(n);
+    executor.parallel_for(n, sample_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            describe(frame, state.eye, i);
+            frame.reached[i] = is_reached(frame, i) ? 1 : 0;
+        }
+    });
+}
+
+std::vector<std::uint32_t> draw_ids(Frame& frame, core::ExecutorRef executor) {
+    math::ivec2 const size = frame.view.size_px;
+    std::vector<std::uint32_t> ids(pixel_count(size));
+    std::vector<float> depth(pixel_count(size));
+    DrawList list = make_draws(*frame.scene, *frame.geometry, raster::Cull::none);
+    list.look_from(frame.view, frame.geometry->origin_m);
+    raster::PassConfig config;
+    config.depth = frame.view.depth;
+    raster::Workspace workspace;
+    raster::PassStats const stats = raster::camera_pass(
+        list.draws, {raster::make_image(depth.data(), size.x, size.y), raster::make_image(ids.data(), size.x, size.y)},
+        config, workspace, executor);
+    frame.triangles_drawn = stats.triangles;
+    frame.bad_triangles = stats.bad_index + stats.not_finite;
+    return ids;
+}
+
+trace::Wrap trace_wrap(scene::Wrap wrap) noexcept {
+    switch (wrap) {
+        case scene::Wrap::clamp_to_edge: return trace::Wrap::clamp;
+        case scene::Wrap::mirrored_repeat: return trace::Wrap::mirror;
+        case scene::Wrap::repeat: break;
+    }
+    return trace::Wrap::repeat;
+}
+
+/// The truth's alpha tables, if any material has holes.
+void collect_alpha(Frame const& frame, FrameState& state) {
+    for (scene::Material const& material : frame.scene->materials) {
+        AlphaRule const rule = alpha_rule(*frame.scene, material);
+        trace::AlphaMaterial alpha;
+        alpha.is_masked = rule.tested || rule.nothing;
+        alpha.factor = material.base_color.w;
+        alpha.cutoff = static_cast<float>(rule.cutoff);
+        if (rule.tested) {
+            scene::Image const& image = *base_image(*frame.scene, material);
+            scene::Texture const& texture = *base_texture(*frame.scene, material);
+            alpha.texture = static_cast<std::uint32_t>(state.textures.size());
+            state.textures.push_back(
+                {image.rgba, image.size_px, trace_wrap(texture.wrap_u), trace_wrap(texture.wrap_v)});
+        }
+        state.masked = state.masked || alpha.is_masked;
+        state.materials.push_back(alpha);
+    }
+    if (!state.masked || frame.geometry->uv.empty()) return;
+    state.corner_uv.reserve(frame.geometry->indices.size());
+    for (std::uint32_t const i : frame.geometry->indices) state.corner_uv.push_back(frame.geometry->uv[i]);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state, trace::Bvh const& bvh,
+                                    core::ExecutorRef executor) {
+    std::size_t const n = state.samples.size();
+    std::vector<std::uint64_t> shadow(trace::visibility_words(n));
+    with_opacity(frame, state, [&](auto const& opacity) {
+        trace::VisibilityConfig<std::remove_cvref_t<decltype(opacity)>> config;
+        config.own_plane = trace::OwnPlane{triangles_of(frame, state), state.eye};
+        config.opacity = opacity;
+        (void)trace::visibility(bvh, std::span<sample::ViewSample const>(state.samples), state.light,
+                                std::span<std::uint64_t>(shadow), executor, config);
+    });
+    std::vector<std::uint8_t> lit(n);
+    for (std::size_t i = 0; i < n; ++i) lit[i] = !trace::is_in_shadow(shadow, i) && frame.reached[i] != 0 ? 1 : 0;
+    return lit;
+}
+
+Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry, math::View const& view,
+                         Light const& light, core::ExecutorRef executor) {
+    if (auto ok = validate_frame(geometry, view, light); !ok) return std::move(ok).failure();
+    Frame frame;
+    auto state = std::make_shared<FrameState>();
+    frame.scene = &scene;
+    frame.geometry = &geometry;
+    frame.view = view;
+    frame.light = light;
+    frame.bounds = geometry.bounds;
+    frame.light_position = math::to_float(light.position_m - geometry.origin_m);
+    frame.to_light = float_direction(-light.direction);
+    state->eye = sample::eye_of(view, geometry.origin_m);
+    state->light = light.kind == LightKind::directional ? predicates::Target::direction(frame.to_light)
+                                                        : predicates::Target::point(frame.light_position);
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
+        state->corners.emplace_back(geometry.indices[i], geometry.indices[i + 1], geometry.indices[i + 2]);
+
+    Stopwatch watch;
+    std::vector<std::uint32_t> const ids = draw_ids(frame, executor);
+    frame.stages.push_back({"camera_pass", watch.lap_ms()});
+    std::vector<sample::ViewSample> image(ids.size());
+    sample::make_view_samples({view, geometry.origin_m, triangles_of(frame, *state)}, ids,
+                              std::span<sample::ViewSample>(image), executor);
+    gather(frame, *state, image, executor);
+    frame.stages.push_back({"samples", watch.lap_ms()});
+    collect_alpha(frame, *state);
+    state->bvh = trace::build_bvh(triangles_of(frame, *state), executor);
+    frame.stages.push_back({"truth_build", watch.lap_ms()});
+    frame.lit = trace_lit(frame, *state, state->bvh, executor);
+    frame.stages.push_back({"truth_trace", watch.lap_ms()});
+    frame.state = std::move(state);
+    return frame;
+}
+
+}  // namespace gnomon::pipeline

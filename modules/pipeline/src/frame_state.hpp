@@ -1,0 +1,43 @@
+#pragma once
+// The hidden part of a frame, and how the truth is asked.
+
+#include <gnomon/core/executor.hpp>
+#include <gnomon/pipeline/frame.hpp>
+#include <gnomon/sample.hpp>
+#include <gnomon/trace.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+struct FrameState {
+    std::vector<math::uvec3> corners;  ///< The geometry's indices, three by three.
+    std::vector<sample::ViewSample> samples;
+    predicates::Target eye;
+    predicates::Target light;
+    trace::Bvh bvh;
+    bool masked = false;  ///< Some triangles have holes; otherwise the lists below are empty.
+    std::vector<trace::AlphaMaterial> materials;
+    std::vector<trace::AlphaTexture> textures;
+    std::vector<math::vec2> corner_uv;
+};
+
+[[nodiscard]] inline predicates::TriangleList triangles_of(Frame const& frame, FrameState const& state) noexcept {
+    return {frame.geometry->positions, state.corners};
+}
+
+/// Calls `use` with the opacity of the frame's triangles.
+template <class Use>
+auto with_opacity(Frame const& frame, FrameState const& state, Use&& use) {
+    if (!state.masked) return use(trace::Solid{});
+    return use(trace::AlphaTest{frame.geometry->triangle_material, state.materials, state.textures, state.corner_uv});
+}
+
+/// 1 for each sample that the light reaches in `bvh`, 0 for the others.
+[[nodiscard]] std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state, trace::Bvh const& bvh,
+                                                  core::ExecutorRef executor);
+
+}  // namespace gnomon::pipeline

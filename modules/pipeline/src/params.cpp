@@ -1,0 +1,123 @@
+// The table of techniques and the reading of their parameters.
+
+#include "detail.hpp"
+
+#include <gnomon/pipeline/technique.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+std::array<Technique, 2> const& table() noexcept {
+    static std::array<Technique, 2> const all{shadow_map_technique(), ray_technique()};
+    return all;
+}
+
+std::string short_text(double x) {
+    std::array<char, 32> buffer{};
+    auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
+    return {buffer.data(), end};
+}
+
+template <class Items, class Name>
+std::string listed(Items const& items, Name name) {
+    std::string all;
+    for (auto const& item : items) {
+        if (!all.empty()) all += ", ";
+        all += name(item);
+    }
+    return all;
+}
+
+core::Failure<Error> bad_value(Technique const& technique, ParamInfo const& info, std::string const& text,
+                               std::string const& legal) {
+    return {Error::bad_value,
+            std::string(technique.name) + "." + std::string(info.name) + " is '" + text + "'; it must be " + legal};
+}
+
+Result<Params::Value> read_choice(Technique const& technique, ParamInfo const& info, std::string const& text) {
+    for (std::size_t i = 0; i < info.choices.size(); ++i)
+        if (info.choices[i] == text) return Params::Value{info.name, text, static_cast<double>(i), info.kind};
+    return bad_value(technique, info, text,
+                     "one of " + listed(info.choices, [](std::string_view word) { return std::string(word); }));
+}
+
+Result<Params::Value> read_number(Technique const& technique, ParamInfo const& info, std::string const& text) {
+    bool const whole = info.kind == ParamKind::integer;
+    std::string const unit = info.unit.empty() ? "" : " " + std::string(info.unit);
+    std::string const legal = std::string(whole ? "a whole number" : "a number") + " from " + short_text(info.min) +
+                              " to " + short_text(info.max) + unit;
+    double number = 0.0;
+    char const* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    char const* const end = text.data() + text.size();
+    auto const read = std::from_chars(begin, end, number);
+    bool const good = read.ec == std::errc{} && read.ptr == end && number >= info.min && number <= info.max &&
+                      (!whole || number == std::floor(number));
+    if (!good) return bad_value(technique, info, text, legal);
+    return Params::Value{info.name, short_text(number), number, info.kind};
+}
+
+Result<Params::Value> read_value(Technique const& technique, ParamInfo const& info, std::string const& text) {
+    return info.kind == ParamKind::choice ? read_choice(technique, info, text) : read_number(technique, info, text);
+}
+
+Params::Value const* find_value(std::span<Params::Value const> values, std::string_view name) noexcept {
+    auto const at = std::find_if(values.begin(), values.end(), [&](auto const& value) { return value.name == name; });
+    return at == values.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+double Params::number(std::string_view name) const noexcept {
+    Value const* const value = find_value(values, name);
+    GNOMON_EXPECT(value != nullptr);
+    return value == nullptr ? 0.0 : value->number;
+}
+
+std::string_view Params::word(std::string_view name) const noexcept {
+    Value const* const value = find_value(values, name);
+    GNOMON_EXPECT(value != nullptr);
+    return value == nullptr ? std::string_view{} : std::string_view{value->text};
+}
+
+std::span<Technique const> techniques() noexcept { return table(); }
+
+Result<Technique const*> find_technique(std::string_view name) {
+    for (Technique const& technique : table())
+        if (technique.name == name) return &technique;
+    return core::Failure{Error::unknown_technique,
+                         "there is no technique '" + std::string(name) + "'; there are " +
+                             listed(table(), [](Technique const& t) { return std::string(t.name); })};
+}
+
+Result<Params> make_params(Technique const& technique, std::span<Setting const> settings) {
+    Params params;
+    for (ParamInfo const& info : technique.params) {
+        auto value = read_value(technique, info, std::string(info.default_text));
+        GNOMON_EXPECT(value.has_value());
+        if (!value) return std::move(value).failure();
+        params.values.push_back(std::move(value).value());
+    }
+    for (Setting const& setting : settings) {
+        auto const info = std::find_if(technique.params.begin(), technique.params.end(),
+                                       [&](ParamInfo const& candidate) { return candidate.name == setting.name; });
+        if (info == technique.params.end()) {
+            std::string const known = listed(technique.params, [](ParamInfo const& p) { return std::string(p.name); });
+            return core::Failure{Error::unknown_parameter, "'" + std::string(technique.name) + "' has no parameter '" +
+                                                               setting.name + "'; it has " +
+                                                               (known.empty() ? "none" : known)};
+        }
+        auto value = read_value(technique, *info, setting.text);
+        if (!value) return std::move(value).failure();
+        params.values[static_cast<std::size_t>(info - technique.params.begin())] = std::move(value).value();
+    }
+    return params;
+}
+
+}  // namespace gnomon::pipeline
