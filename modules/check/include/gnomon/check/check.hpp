@@ -932,9 +932,20 @@ void for_all(First&& first, Args&&... others) {
 #endif
 
 namespace gnomon::check {
+using Catch::CaseSensitive;
+using Catch::MatcherBase;
 using Catch::Detail::Approx;
-using namespace Catch::Matchers;
-using Catch::StringMaker;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::Equals;
+using Catch::Matchers::Message;
+using Catch::Matchers::Predicate;
+using Catch::Matchers::StartsWith;
+using Catch::Matchers::UnorderedEquals;
+using Catch::Matchers::VectorContains;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+using Catch::Matchers::WithinULP;
 namespace detail {
 [[noreturn]] inline void leave_test_case() { throw Catch::TestFailureException{}; }
 
@@ -3820,5 +3831,155 @@ inline void watch_signals() {}
 #if !defined(GNOMON_CHECK_NO_MAIN)
 int main(int argc, char** argv) { return gnomon::check::detail::run_program(argc, argv); }
 #endif
-#endif  // own harness
+
+#else  // Catch2 underneath: for_all's view of it
+
+namespace gnomon::check::detail {
+
+/// Stands in for Catch2's collector of results. Silent: a failure only sets hot().case_failed. Aloud: passes
+/// everything on, but only the first failure.
+class CaptureFilter final : public Catch::IResultCapture {
+public:
+    CaptureFilter(Catch::IResultCapture& inner, bool silent) : inner_(inner), silent_(silent) {}
+    [[nodiscard]] bool failed() const noexcept { return failed_; }
+
+    bool sectionStarted(Catch::SectionInfo const& info, Catch::Counts& counts) override {
+        return !silent_ && inner_.sectionStarted(info, counts);
+    }
+    void sectionEnded(Catch::SectionEndInfo const& info) override { inner_.sectionEnded(info); }
+    void sectionEndedEarly(Catch::SectionEndInfo const& info) override { inner_.sectionEndedEarly(info); }
+    auto acquireGeneratorTracker(Catch::StringRef name, Catch::SourceLineInfo const& line)
+        -> Catch::IGeneratorTracker& override {
+        return inner_.acquireGeneratorTracker(name, line);
+    }
+#if defined(CATCH_CONFIG_ENABLE_BENCHMARKING)
+    void benchmarkPreparing(std::string const& name) override { inner_.benchmarkPreparing(name); }
+    void benchmarkStarting(Catch::BenchmarkInfo const& info) override { inner_.benchmarkStarting(info); }
+    void benchmarkEnded(Catch::BenchmarkStats<> const& stats) override { inner_.benchmarkEnded(stats); }
+    void benchmarkFailed(std::string const& error) override { inner_.benchmarkFailed(error); }
+#endif
+    void pushScopedMessage(Catch::MessageInfo const& message) override {
+        if (!silent_) inner_.pushScopedMessage(message);
+    }
+    void popScopedMessage(Catch::MessageInfo const& message) override {
+        if (!silent_) inner_.popScopedMessage(message);
+    }
+    void emplaceUnscopedMessage(Catch::MessageBuilder const& builder) override {
+        if (!silent_) inner_.emplaceUnscopedMessage(builder);
+    }
+    void handleFatalErrorCondition(Catch::StringRef message) override { inner_.handleFatalErrorCondition(message); }
+
+    void handleExpr(Catch::AssertionInfo const& info, Catch::ITransientExpression const& expression,
+                    Catch::AssertionReaction& reaction) override {
+        bool const passed = expression.getResult() != Catch::isFalseTest(info.resultDisposition);
+        if (wanted(info, passed, reaction)) inner_.handleExpr(info, expression, reaction);
+    }
+    void handleMessage(Catch::AssertionInfo const& info, Catch::ResultWas::OfType type, Catch::StringRef const& message,
+                       Catch::AssertionReaction& reaction) override {
+        if (wanted(info, Catch::isOk(type), reaction)) inner_.handleMessage(info, type, message, reaction);
+    }
+    void handleUnexpectedExceptionNotThrown(Catch::AssertionInfo const& info,
+                                            Catch::AssertionReaction& reaction) override {
+        if (wanted(info, false, reaction)) inner_.handleUnexpectedExceptionNotThrown(info, reaction);
+    }
+    void handleUnexpectedInflightException(Catch::AssertionInfo const& info, std::string const& message,
+                                           Catch::AssertionReaction& reaction) override {
+        if (wanted(info, false, reaction)) inner_.handleUnexpectedInflightException(info, message, reaction);
+    }
+    void handleIncomplete(Catch::AssertionInfo const& info) override {
+        if (!silent_) inner_.handleIncomplete(info);
+    }
+    void handleNonExpr(Catch::AssertionInfo const& info, Catch::ResultWas::OfType type,
+                       Catch::AssertionReaction& reaction) override {
+        if (wanted(info, Catch::isOk(type), reaction)) inner_.handleNonExpr(info, type, reaction);
+    }
+    bool lastAssertionPassed() override { return silent_ ? last_passed_ : inner_.lastAssertionPassed(); }
+    void assertionPassed() override {
+        if (!silent_) inner_.assertionPassed();
+    }
+    std::string getCurrentTestName() const override { return inner_.getCurrentTestName(); }
+    Catch::AssertionResult const* getLastResult() const override { return inner_.getLastResult(); }
+    void exceptionEarlyReported() override { inner_.exceptionEarlyReported(); }
+
+private:
+    // Keeps the books; true where the real collector is to hear of it.
+    bool wanted(Catch::AssertionInfo const& info, bool passed, Catch::AssertionReaction& reaction) {
+        last_passed_ = passed;
+        if (passed) return !silent_;
+        if (Catch::shouldSuppressFailure(info.resultDisposition)) return !silent_;
+        bool const first = !std::exchange(failed_, true);
+        hot().case_failed = true;
+        if (!silent_ && first) return true;
+        reaction.shouldThrow = !Catch::shouldContinueOnFailure(info.resultDisposition);
+        return false;
+    }
+
+    Catch::IResultCapture& inner_;
+    bool silent_;
+    bool failed_ = false;
+    bool last_passed_ = true;
+};
+
+Silence::Silence() : before_(hot()), capture_(Catch::getCurrentMutableContext().getResultCapture()) {
+    hot().silent = true;
+    Catch::getCurrentMutableContext().setResultCapture(new CaptureFilter(*capture_, true));
+}
+Silence::~Silence() {
+    delete Catch::getCurrentMutableContext().getResultCapture();
+    Catch::getCurrentMutableContext().setResultCapture(capture_);
+    hot() = before_;
+}
+
+void rethrow_control() {}
+
+PropertyOptions property_options() {
+    PropertyOptions options;
+    bool found = false;
+    options.seed = Catch::rngSeed();
+    options.scale = number_from_environment("GNOMON_PROPERTY_CASES", found);
+    if (!found) options.scale = 1000;
+    options.case_index = number_from_environment("GNOMON_PROPERTY_CASE", options.one_case);
+    options.key = hash_text(mix64(options.seed + 1), Catch::getResultCapture().getCurrentTestName().c_str()) + mix64(1);
+    return options;
+}
+
+Text replay_command(PropertyOptions const& options, std::uint64_t index) {
+    Text out("GNOMON_PROPERTY_CASE=");
+    put_unsigned(out, index);
+    out.append(" ").append(Catch::getCurrentContext().getConfig()->name().c_str()).append(" ");
+    out.append(("\"" + Catch::getResultCapture().getCurrentTestName() + "\"").c_str()).append(" --rng-seed ");
+    put_unsigned(out, options.seed);
+    return out;
+}
+
+void report_property(bool passed, Text const& text) {
+    if (passed) {
+        SUCCEED("for_all: " << text.data());
+    } else {
+        FAIL_CHECK("for_all: " << text.data());
+    }
+}
+
+void report_counterexample(Property const& property, Tape& tape, Text const& summary) {
+    INFO(summary.data());
+    Catch::IResultCapture& collector = Catch::getResultCapture();
+    CaptureFilter first_only(collector, false);
+    Choices choices(0, 0, &tape);
+    bool said_no = false;
+    Catch::getCurrentMutableContext().setResultCapture(&first_only);
+    try {
+        said_no = !property.run(property.self, choices);
+    } catch (...) {
+        Catch::getCurrentMutableContext().setResultCapture(&collector);
+        if (first_only.failed()) throw;
+        FAIL_CHECK("for_all: the function threw: " << Catch::translateActiveException());
+        return;
+    }
+    Catch::getCurrentMutableContext().setResultCapture(&collector);
+    if (!first_only.failed())
+        report_property(false, said_no ? "the function returned false" : "the case failed at first, and passed when it was run again");
+}
+
+}  // namespace gnomon::check::detail
+#endif  // own harness or Catch2
 #endif  // GNOMON_CHECK_MAIN
