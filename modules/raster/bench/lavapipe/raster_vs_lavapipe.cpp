@@ -7,9 +7,10 @@
 
 #include "vulkan_depth.hpp"
 
+#include "../city.hpp"
+
 #include <gnomon/math/view.hpp>
 #include <gnomon/raster.hpp>
-#include <gnomon/scene.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -29,38 +30,6 @@ struct Options {
     int repeats = 5;
     raster::Kernel kernel = raster::Kernel::automatic;
 };
-
-/// The comparison's two views of `bounds`: the fitted sun, and a walker in the street.
-math::View view_of(bool ortho, math::Aabb const& bounds, int size_px) {
-    if (!ortho) {
-        math::PerspectiveConfig street;
-        street.eye_m = {-222.2, 1.7, -414.3};
-        street.target_m = street.eye_m + math::dvec3(0.35, 0.06, 1.0);
-        street.near_m = 0.5;
-        street.far_m = 2000.0;
-        street.size_px = {size_px, size_px};
-        street.depth = math::Depth::forward;
-        return math::make_perspective(street).value();
-    }
-    math::OrthographicConfig sun;
-    sun.eye_m = math::to_double(math::center(bounds));
-    sun.target_m = sun.eye_m + math::dvec3(-0.45, -0.80, -0.40);
-    sun.size_px = {size_px, size_px};
-    sun.depth = math::Depth::forward;
-    math::View view = math::make_orthographic(sun).value();
-    math::dvec3 lo(1e30);
-    math::dvec3 hi(-1e30);
-    for (unsigned i = 0; i < 8; ++i) {
-        math::dvec3 const p = math::to_double(math::corner(bounds, i)) - view.eye_m;
-        math::dvec3 const seen(glm::dot(view.right, p), glm::dot(view.up, p), -glm::dot(view.back, p));
-        lo = glm::min(lo, seen);
-        hi = glm::max(hi, seen);
-    }
-    view.window = {lo.x, hi.x, lo.y, hi.y};
-    view.near_m = lo.z - 1.0;
-    view.far_m = hi.z + 1.0;
-    return view;
-}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -87,8 +56,8 @@ Difference compare(std::vector<float> const& a, std::vector<float> const& b) {
     return d;
 }
 
-void compare_row(scene::Geometry const& city, bool ortho, int size_px, Options const& options) {
-    math::View const view = view_of(ortho, city.bounds, size_px);
+void compare_row(bench::City const& city, bool ortho, int size_px, Options const& options) {
+    math::View const view = bench::make_view(ortho, size_px);
     // Both get the same floats: positions relative to the eye, rounded once.
     math::vec3 const eye = math::to_float(view.eye_m);
     std::vector<math::vec3> relative(city.positions);
@@ -139,10 +108,8 @@ bool parse(int argc, char** argv, Options& options) {
 void run(Options const& options) {
     std::printf("%8s  %-5s  %4s  %10s  %10s  %7s  %8s  %9s  %s\n", "tris", "view", "size", "lavapipe", "gnomon", "ratio",
                 "coverage", "dz > 2e-6", "max dz");
-    for (std::uint64_t const triangles : {52'000U, 254'000U, 1'010'000U}) {
-        auto const made = scene::make_procedural({.name = "city", .triangles = triangles});
-        if (!made) throw std::runtime_error(made.failure().message);
-        scene::Geometry const city = scene::flatten(*made);
+    for (int const size : {0, 1, 2}) {
+        bench::City const city = bench::make_city(size);
         for (int const size_px : {1024, 2048, 4096})
             for (bool const ortho : {true, false}) compare_row(city, ortho, size_px, options);
     }
