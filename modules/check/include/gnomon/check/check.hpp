@@ -107,7 +107,22 @@ public:
     Text& append(Text const& text);
 
     [[nodiscard]] char const* data() const noexcept { return data_ ? data_ : ""; }
+    [[nodiscard]] char const* c_str() const noexcept { return data(); }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] char operator[](std::size_t index) const noexcept { return data()[index]; }
+    [[nodiscard]] char const* begin() const noexcept { return data(); }
+    [[nodiscard]] char const* end() const noexcept { return data() + size_; }
+
+    /// At most `count` characters from `first`; an end beyond the text's is the text's.
+    [[nodiscard]] Text part(std::size_t first, std::size_t count = npos) const;
+    /// The place of `wanted` at or after `from`, else npos.
+    [[nodiscard]] std::size_t find(char const* wanted, std::size_t from = 0) const noexcept;
+    /// Less, equal or greater than 0, as strcmp.
+    [[nodiscard]] int order(Text const& other) const noexcept;
+    [[nodiscard]] bool operator==(Text const& other) const noexcept { return order(other) == 0; }
+
+    static constexpr std::size_t npos = ~std::size_t{0};
 
 private:
     char* data_ = nullptr;
@@ -2068,12 +2083,10 @@ using Catch::Approx;
 #if defined(GNOMON_CHECK_MAIN) && !defined(GNOMON_CHECK_COMPILED)
 #define GNOMON_CHECK_COMPILED
 // ---- 13 compiled part: text, choices, shrinking ---------------------------------------------------
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <string>
 
 namespace gnomon::check {
 
@@ -2111,6 +2124,19 @@ Text& Text::append(char const* text, std::size_t size) {
 Text& Text::append(char const* text) { return append(text, std::strlen(text)); }
 Text& Text::append(char c) { return append(&c, 1); }
 Text& Text::append(Text const& text) { return append(text.data(), text.size()); }
+Text Text::part(std::size_t first, std::size_t count) const {
+    if (first >= size_) return {};
+    return Text(data() + first, count < size_ - first ? count : size_ - first);
+}
+std::size_t Text::find(char const* wanted, std::size_t from) const noexcept {
+    char const* const at = from <= size_ ? std::strstr(data() + from, wanted) : nullptr;
+    return at ? static_cast<std::size_t>(at - data()) : npos;
+}
+int Text::order(Text const& other) const noexcept {
+    std::size_t const shared = size_ < other.size_ ? size_ : other.size_;
+    int const order = shared == 0 ? 0 : std::memcmp(data_, other.data_, shared);
+    return order != 0 ? order : size_ < other.size_ ? -1 : size_ > other.size_ ? 1 : 0;
+}
 
 namespace detail {
 
@@ -2194,6 +2220,69 @@ void put_pointer(Text& out, void const* pointer) {
     else out.append("nullptr");
 }
 
+/// A small std::vector: this part of the file must compile fast too.
+template <class T>
+class List {
+public:
+    List() noexcept = default;
+    List(List const& other) { append(other); }
+    List(List&& other) noexcept { swap(other); }
+    List& operator=(List other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~List() { delete[] data_; }
+
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] T& operator[](std::size_t index) noexcept { return data_[index]; }
+    [[nodiscard]] T const& operator[](std::size_t index) const noexcept { return data_[index]; }
+    [[nodiscard]] T* begin() noexcept { return data_; }
+    [[nodiscard]] T* end() noexcept { return data_ + size_; }
+    [[nodiscard]] T const* begin() const noexcept { return data_; }
+    [[nodiscard]] T const* end() const noexcept { return data_ + size_; }
+
+    void push_back(T value) {
+        if (size_ == capacity_) grow();
+        data_[size_++] = std::move(value);
+    }
+    void append(List const& other) {
+        for (T const& value : other) push_back(value);
+    }
+    void pop_back() noexcept { data_[--size_] = T(); }
+    void clear() noexcept { erase(0, size_); }
+    void erase(std::size_t first, std::size_t last) noexcept {
+        for (std::size_t i = last; i < size_; ++i) data_[first + i - last] = std::move(data_[i]);
+        for (std::size_t n = last - first; n > 0; --n) pop_back();
+    }
+    void swap(List& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+    }
+
+private:
+    void grow() {
+        std::size_t const capacity = 2 * capacity_ + 4;
+        T* const grown = new T[capacity]();
+        for (std::size_t i = 0; i < size_; ++i) grown[i] = std::move(data_[i]);
+        delete[] data_;
+        data_ = grown;
+        capacity_ = capacity;
+    }
+
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+template <class T>
+[[nodiscard]] bool contains(List<T> const& list, T const& wanted) {
+    for (T const& value : list)
+        if (value == wanted) return true;
+    return false;
+}
+
 struct Rejected {};
 
 struct Tape {
@@ -2201,12 +2290,12 @@ struct Tape {
         std::size_t begin, end;
     };
     bool replaying = false;
-    std::vector<std::uint64_t> input;  // what to replay
-    std::vector<std::uint64_t> used;   // what the case really drew
-    std::vector<Mark> spans;
-    std::vector<std::size_t> open;
+    List<std::uint64_t> input;  // what to replay
+    List<std::uint64_t> used;   // what the case really drew
+    List<Mark> spans;
+    List<std::size_t> open;
 
-    void restart(std::vector<std::uint64_t> choices) {
+    void restart(List<std::uint64_t> choices) {
         replaying = true;
         input = std::move(choices);
         used.clear();
@@ -2239,7 +2328,7 @@ void tape_span(Tape& tape, bool begin) {
         tape.open.push_back(tape.spans.size());
         tape.spans.push_back({tape.used.size(), tape.used.size()});
     } else {
-        tape.spans[tape.open.back()].end = tape.used.size();
+        tape.spans[tape.open[tape.open.size() - 1]].end = tape.used.size();
         tape.open.pop_back();
     }
 }
@@ -2280,12 +2369,14 @@ public:
     [[nodiscard]] static Verdict evaluate(Property const& property, Tape& tape);
 
 private:
-    using Values = std::vector<std::uint64_t>;
+    using Values = List<std::uint64_t>;
 
     [[nodiscard]] bool exhausted() const { return tried_ >= 20000 || seconds_now() > deadline_; }
     [[nodiscard]] static bool smaller(Values const& a, Values const& b) {
         if (a.size() != b.size()) return a.size() < b.size();
-        return a < b;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (a[i] != b[i]) return a[i] < b[i];
+        return false;
     }
     // True if the candidate still fails; it is the best one then.
     bool attempt(Values candidate) {
@@ -2300,8 +2391,7 @@ private:
     }
     [[nodiscard]] Values without(std::size_t begin, std::size_t end) const {
         Values values = best_.used;
-        using Offset = Values::difference_type;
-        values.erase(values.begin() + static_cast<Offset>(begin), values.begin() + static_cast<Offset>(end));
+        values.erase(begin, end);
         return values;
     }
     void drop_spans() {
@@ -2321,7 +2411,7 @@ private:
             for (std::size_t i = 0; i + size <= best_.used.size() && !exhausted(); i += size) {
                 Values values = best_.used;
                 for (std::size_t k = 0; k < size; ++k) values[i + k] = 0;
-                if (values != best_.used) attempt(std::move(values));
+                if (smaller(values, best_.used)) attempt(std::move(values));
             }
         }
     }
@@ -2547,14 +2637,15 @@ void run_property(Property const& property) {
 
 // ---- 14 compiled part: runner, reporters, command line, main() ------------------------------------
 #if !defined(GNOMON_CHECK_USE_CATCH2)
-#include <algorithm>
+#include <cerrno>
 #include <csignal>
 
 namespace gnomon::check {
 
 bool Approx::equals(double other) const noexcept {
     auto const near = [&](double margin) { return value_ + margin >= other && other + margin >= value_; };
-    double const size = std::isinf(value_) ? 0.0 : std::fabs(value_);
+    bool const finite = value_ - value_ == 0;
+    double const size = !finite ? 0.0 : value_ < 0 ? -value_ : value_;
     return near(margin_) || near(epsilon_ * (scale_ + size));
 }
 
@@ -2590,12 +2681,21 @@ bool MessageMatcher::match(std::exception const& e) const { return std::strcmp(e
 
 namespace detail {
 
-using String = std::string;
-[[nodiscard]] inline String to_string(Text const& text) { return String(text.data(), text.size()); }
-[[nodiscard]] inline String number(std::uint64_t value) {
-    Text out;
+using String = Text;
+[[nodiscard]] String operator+(String left, String const& right) { return std::move(left.append(right)); }
+[[nodiscard]] String operator+(String left, char const* right) { return std::move(left.append(right)); }
+[[nodiscard]] String operator+(char const* left, String const& right) { return String(left) + right; }
+void operator+=(String& left, String const& right) { left.append(right); }
+void operator+=(String& left, char const* right) { left.append(right); }
+[[nodiscard]] String number(std::uint64_t value) {
+    String out;
     put_unsigned(out, value);
-    return to_string(out);
+    return out;
+}
+[[nodiscard]] String repeat(char c, int times) {
+    String out;
+    while (times-- > 0) out.append(c);
+    return out;
 }
 
 // What ends a test case early.
@@ -2649,7 +2749,7 @@ void split_list(char const* list, F const& f) {
     String found;
     std::size_t number = 0;
     split_list(list, [&](char const* begin, char const* end) {
-        if (number++ == index) found.assign(begin, end);
+        if (number++ == index) found = String(begin, static_cast<std::size_t>(end - begin));
     });
     return found;
 }
@@ -2661,8 +2761,8 @@ void put_capture_name(Text& out, char const* names, std::size_t index) {
 // -- command line --
 
 struct Config {
-    std::vector<String> specs;
-    std::vector<String> sections;
+    List<String> specs;
+    List<String> sections;
     String program, name, reporter = "console", out, order = "decl";
     std::uint64_t seed = 0;
     std::uint64_t abort_after = 0;
@@ -2772,8 +2872,8 @@ void print_help(Config const& config) {
             config.specs.push_back(argument);
             continue;
         }
-        std::size_t const equals = argument[1] == '-' ? argument.find('=') : String::npos;
-        String const flag = argument.substr(0, equals);
+        std::size_t const equals = argument[1] == '-' ? argument.find("=") : String::npos;
+        String const flag = argument.part(0, equals);
         Option const* found = nullptr;
         for (Option const& option : option_table)
             if ((option.short_name && flag == option.short_name) || (option.long_name && flag == option.long_name)) found = &option;
@@ -2792,26 +2892,30 @@ void print_help(Config const& config) {
 // -- tests and filters --
 
 struct Test {
-    TestCase const* source;
+    TestCase const* source = nullptr;
     String name;
-    std::vector<String> tags;  // without brackets, lower case
+    List<String> tags;  // without brackets, lower case
     bool hidden = false, should_fail = false, may_fail = false, throws = false;
+    std::uint64_t order = 0;
 };
 
-[[nodiscard]] String lower(String text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
+[[nodiscard]] String lower(String const& text) {
+    String out;
+    for (char c : text) out.append(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+    return out;
 }
 [[nodiscard]] String trim(String const& text) {
-    std::size_t const begin = text.find_first_not_of(" \t\n");
-    return begin == String::npos ? String() : text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
+    auto const blank = [](char c) { return c == ' ' || c == '\t' || c == '\n'; };
+    std::size_t first = 0, last = text.size();
+    while (first < last && blank(text[first])) ++first;
+    while (first < last && blank(text[last - 1])) --last;
+    return text.part(first, last - first);
 }
 
 void add_tag(Test& test, String tag) {
     if (tag.size() > 1 && tag[0] == '.') {
         test.hidden = true;
-        add_tag(test, tag.substr(1));
+        add_tag(test, tag.part(1));
         tag = ".";
     }
     tag = lower(tag);
@@ -2819,21 +2923,23 @@ void add_tag(Test& test, String tag) {
     if (tag == "!shouldfail") test.should_fail = true;
     if (tag == "!mayfail") test.may_fail = true;
     if (tag == "!throws") test.throws = true;
-    if (std::find(test.tags.begin(), test.tags.end(), tag) == test.tags.end()) test.tags.push_back(tag);
+    if (!contains(test.tags, tag)) test.tags.push_back(tag);
 }
 
 [[nodiscard]] Test make_test(TestCase const& source, std::size_t number_of_anonymous) {
-    Test test{&source, source.name, {}, false, false, false, false};
+    Test test;
+    test.source = &source;
+    test.name = source.name;
     if (test.name.empty()) test.name = "Anonymous test case " + number(number_of_anonymous);
     if (source.types) {
         String const type = nth_of_list(source.types, source.type_index);
         test.name += " - " + (type.empty() ? number(source.type_index) : type);
     }
     String const tags = source.tags;
-    for (std::size_t at = tags.find('['); at != String::npos; at = tags.find('[', at + 1)) {
-        std::size_t const end = tags.find(']', at);
+    for (std::size_t at = tags.find("["); at != String::npos; at = tags.find("[", at + 1)) {
+        std::size_t const end = tags.find("]", at);
         if (end == String::npos) break;
-        add_tag(test, tags.substr(at + 1, end - at - 1));
+        add_tag(test, tags.part(at + 1, end - at - 1));
     }
     return test;
 }
@@ -2844,15 +2950,15 @@ struct Pattern {
     bool any_start = false, any_end = false;
 
     [[nodiscard]] bool matches(Test const& test) const {
-        if (is_tag) return std::find(test.tags.begin(), test.tags.end(), text) != test.tags.end();
+        if (is_tag) return contains(test.tags, text);
         String const name = lower(test.name);
-        if (any_start && any_end) return name.find(text) != String::npos;
-        if (any_start) return name.size() >= text.size() && name.compare(name.size() - text.size(), text.size(), text) == 0;
-        if (any_end) return name.compare(0, text.size(), text) == 0;
+        if (any_start && any_end) return name.find(text.c_str()) != String::npos;
+        if (any_start) return name.size() >= text.size() && name.part(name.size() - text.size()) == text;
+        if (any_end) return name.part(0, text.size()) == text;
         return name == text;
     }
 };
-using Filter = std::vector<Pattern>;  // all must agree
+using Filter = List<Pattern>;  // all must agree
 
 /// Reads test specifications: patterns side by side must all match, a comma separates alternatives.
 class SpecParser {
@@ -2863,12 +2969,12 @@ public:
             if (c == ' ') ++at_;
             else if (c == ',') ++at_, finish();
             else if (c == '~') ++at_, exclude_ = true;
-            else if (spec.compare(at_, 8, "exclude:") == 0) at_ += 8, exclude_ = true;
+            else if (spec.find("exclude:", at_) == at_) at_ += 8, exclude_ = true;
             else if (c == '[') tag(spec);
             else name(spec);
         }
     }
-    [[nodiscard]] std::vector<Filter> take() {
+    [[nodiscard]] List<Filter> take() {
         finish();
         return std::move(filters_);
     }
@@ -2885,14 +2991,15 @@ private:
         current_.push_back(std::move(pattern));
     }
     void tag(String const& spec) {
-        std::size_t const end = std::min(spec.find(']', at_), spec.size());
-        String text = lower(spec.substr(at_ + 1, end - at_ - 1));
+        std::size_t const found = spec.find("]", at_);
+        std::size_t const end = found < spec.size() ? found : spec.size();
+        String text = lower(spec.part(at_ + 1, end - at_ - 1));
         if (text == "!hide") text = ".";
         if (text.size() > 1 && text[0] == '.') {  // [.tag] is [.][tag]
             bool const exclude = exclude_;
             add({".", true, false, false, false});
             exclude_ = exclude;
-            text.erase(0, 1);
+            text = text.part(1);
         }
         add({text, true, false, false, false});
         at_ = end + 1;
@@ -2903,21 +3010,22 @@ private:
         String text;
         for (; at_ < spec.size() && (quoted ? spec[at_] != '"' : spec[at_] != ',' && spec[at_] != '['); ++at_) {
             if (spec[at_] == '\\' && at_ + 1 < spec.size()) ++at_;
-            text += spec[at_];
+            text.append(spec[at_]);
         }
         if (quoted) ++at_;
         Pattern pattern;
         pattern.text = lower(trim(text));
-        if (pattern.text.size() > 0 && pattern.text[0] == '*') pattern.any_start = true, pattern.text.erase(0, 1);
-        if (pattern.text.size() > 0 && pattern.text.back() == '*') pattern.any_end = true, pattern.text.pop_back();
-        if (pattern.text.empty()) pattern.any_end = true;
+        String& body = pattern.text;
+        if (!body.empty() && body[0] == '*') pattern.any_start = true, body = body.part(1);
+        if (!body.empty() && body[body.size() - 1] == '*') pattern.any_end = true, body = body.part(0, body.size() - 1);
+        if (body.empty()) pattern.any_end = true;
         add(pattern);
     }
 
     std::size_t at_ = 0;
     bool exclude_ = false;
     Filter current_;
-    std::vector<Filter> filters_;
+    List<Filter> filters_;
 };
 
 [[nodiscard]] bool selected(Filter const& filter, Test const& test) {
@@ -2932,12 +3040,12 @@ private:
     return use;
 }
 
-[[nodiscard]] std::vector<Test> select_tests(Config const& config) {
+[[nodiscard]] List<Test> select_tests(Config const& config) {
     SpecParser parser;
     for (String const& spec : config.specs) parser.parse(spec);
-    std::vector<Filter> filters = parser.take();
+    List<Filter> filters = parser.take();
     if (filters.empty()) filters.push_back({});
-    std::vector<Test> tests;
+    List<Test> tests;
     std::size_t anonymous = 0;
     for (TestCase const* source = registry().first; source; source = source->next) {
         if (*source->name == '\0') ++anonymous;
@@ -2949,14 +3057,20 @@ private:
     return tests;
 }
 
+template <class T, class Before>
+void sort_list(List<T>& list, Before const& before) {
+    for (std::size_t i = 1; i < list.size(); ++i)
+        for (std::size_t k = i; k > 0 && before(list[k], list[k - 1]); --k) std::swap(list[k], list[k - 1]);
+}
+
 // A test keeps its place among the others whatever the filter.
-void sort_tests(std::vector<Test>& tests, Config const& config) {
-    if (config.order[0] == 'l')
-        std::stable_sort(tests.begin(), tests.end(), [](Test const& a, Test const& b) { return a.name < b.name; });
-    if (config.order[0] == 'r') {
-        auto const key = [&](Test const& test) { return hash_text(mix64(config.seed + 1), test.name.c_str()); };
-        std::stable_sort(tests.begin(), tests.end(), [&](Test const& a, Test const& b) { return key(a) < key(b); });
-    }
+void sort_tests(List<Test>& tests, Config const& config) {
+    if (config.order[0] == 'd') return;
+    bool const random = config.order[0] == 'r';
+    for (Test& test : tests) test.order = random ? hash_text(mix64(config.seed + 1), test.name.c_str()) : 0;
+    sort_list(tests, [](Test const& a, Test const& b) {
+        return a.order != b.order ? a.order < b.order : a.name.order(b.name) < 0;
+    });
 }
 
 // -- sections and generators: which path this run of the test case takes --
@@ -2970,7 +3084,7 @@ struct Tracker {
     bool is_generator = false;
     State state = State::fresh;
     Tracker* parent = nullptr;
-    std::vector<Tracker*> children;
+    List<Tracker*> children;
     GeneratorSlot slot;
 
     Tracker() = default;
@@ -2998,7 +3112,7 @@ struct Tracker {
 /// Walks the tree: each run of the test case enters one new path to a leaf.
 class Paths {
 public:
-    explicit Paths(std::vector<String> const& section_filters) : filters_(section_filters) {}
+    explicit Paths(List<String> const& section_filters) : filters_(section_filters) {}
 
     void begin_run() {
         path_done_ = false;
@@ -3092,7 +3206,7 @@ private:
         }
     }
 
-    std::vector<String> const& filters_;
+    List<String> const& filters_;
     Tracker root_;
     Tracker* current_ = &root_;
     bool path_done_ = false;
@@ -3106,8 +3220,8 @@ struct Assertion {
     Kind kind;
     bool passed;
     String expansion;                // of an expression; or the text of a message or an exception
-    std::vector<String> messages;
-    std::vector<String> sections;    // where, below the test case
+    List<String> messages;
+    List<String> sections;    // where, below the test case
 };
 
 struct Counts {
@@ -3148,7 +3262,7 @@ struct Reporter {
 [[nodiscard]] String indent(String const& text, char const* by) {
     String result = by;
     for (char c : text) {
-        result += c;
+        result.append(c);
         if (c == '\n') result += by;
     }
     return result;
@@ -3216,7 +3330,7 @@ public:
         print(buffer + test.name + "\n");
     }
     void run_ends(Totals const& totals) override {
-        String const line(79, '=');
+        String const line = repeat('=', 79);
         if (totals.tests.total() == 0) {
             print(line + "\nNo tests ran\n\n");
         } else if (totals.tests.failed == 0 && totals.tests.expected == 0 && totals.tests.skipped == 0) {
@@ -3228,14 +3342,14 @@ public:
     }
 
 private:
-    void heading(Test const& test, std::vector<String> const& sections) {
+    void heading(Test const& test, List<String> const& sections) {
         String path = test.name + "\n";
         for (String const& section : sections) path += "  " + section + "\n";
         if (path == shown_) return;
         shown_ = path;
-        String const line(79, '-');
+        String const line = repeat('-', 79);
         print(line + "\n" + path + line + "\n" + test.source->file + ":" + number(test.source->line) + "\n" +
-              String(79, '.') + "\n\n");
+              repeat('.', 79) + "\n\n");
     }
     String shown_;
 };
@@ -3304,7 +3418,7 @@ public:
             case '\'': out += "&apos;"; break;
             case '\n': out += "&#10;"; break;
             case '\t': out += "&#9;"; break;
-            default: out.append(text, at, length);
+            default: out.append(text.data() + at, length);
         }
         at += length;
     }
@@ -3332,7 +3446,7 @@ public:
     void test_ends(Test const& test, TestResult const& result) override {
         cases_ += "    <testcase classname=\"" + xml(run_name()) + ".global\" name=\"" + xml(test.name) + "\" time=\"" +
                   seconds(result.seconds) + "\"" + (details_.empty() ? "/>\n" : ">\n" + details_ + "    </testcase>\n");
-        details_.clear();
+        details_ = {};
         time_ += result.seconds;
     }
     void run_ends(Totals const& totals) override {
@@ -3346,7 +3460,8 @@ public:
 private:
     [[nodiscard]] String run_name() const {
         if (!config.name.empty()) return config.name;
-        return config.program.substr(config.program.find_last_of('/') + 1);
+        char const* const slash = std::strrchr(config.program.c_str(), '/');
+        return slash ? String(slash + 1) : config.program;
     }
     [[nodiscard]] static String seconds(double value) {
         char buffer[32];
@@ -3380,8 +3495,8 @@ public:
         String text;
         bool scoped;
     };
-    std::vector<Message> messages;
-    std::vector<String> sections;
+    List<Message> messages;
+    List<String> sections;
     Paths* paths = nullptr;
     Site last_site{"", 0, go_on, "", ""};
     bool last_passed = true;
@@ -3431,7 +3546,8 @@ void Runner::record(Assertion a) {
         for (Message const& message : messages) a.messages.push_back(message.text);
         reporter_.assertion(*test_, a);
     }
-    messages.erase(std::remove_if(messages.begin(), messages.end(), [](Message const& m) { return !m.scoped; }), messages.end());
+    for (std::size_t i = messages.size(); i-- > 0;)
+        if (!messages[i].scoped) messages.erase(i, i + 1);
 }
 
 void Runner::run_once() {
@@ -3447,7 +3563,7 @@ void Runner::run_once() {
     } catch (TestSkipped const&) {
     } catch (...) {
         Site const site{last_site.file, last_site.line, go_on, "{Unknown expression after the reported line}", ""};
-        record({site, Kind::exception, false, to_string(exception_text()), {}, {}});
+        record({site, Kind::exception, false, exception_text(), {}, {}});
     }
 #else
     test_->source->run();
@@ -3548,18 +3664,18 @@ void report(Site const& site, bool value, Expand expand, void const* expression)
         expand(text, expression);
         if ((site.flags & expect_false) != 0) text.append(")");
     }
-    settle(site, Kind::expression, passed, to_string(text));
+    settle(site, Kind::expression, passed, text);
 }
 
 void report_text(Site const& site, Kind kind, Text const& text) {
     bool const passed = kind == Kind::success || kind == Kind::warning;
     if (kind == Kind::skip) {
         hot().silent = false;
-        settle(site, kind, true, to_string(text));
+        settle(site, kind, true, text);
         return;
     }
     if (handled_in_silence(site, passed)) return;
-    settle(site, kind, passed, to_string(text));
+    settle(site, kind, passed, text);
 }
 
 #if GNOMON_CHECK_EXCEPTIONS
@@ -3576,29 +3692,27 @@ Text exception_text() {
         return e.what();
     } catch (char const* text) {
         return text;
-    } catch (std::string const& text) {
-        return Text(text.data(), text.size());
     } catch (...) {
         return "an exception that is no std::exception";
     }
 }
 void report_exception(Site const& site) {
     Text const text = exception_text();
-    if (!handled_in_silence(site, false)) settle(site, Kind::exception, false, to_string(text));
+    if (!handled_in_silence(site, false)) settle(site, Kind::exception, false, text);
 }
 #endif
 
-void push_message(Site const&, Text const& text) { runner().messages.push_back({to_string(text), true}); }
+void push_message(Site const&, Text const& text) { runner().messages.push_back({text, true}); }
 void unscoped_message(Site const&, Text const& text) {
-    if (!hot().silent) runner().messages.push_back({to_string(text), false});
+    if (!hot().silent) runner().messages.push_back({text, false});
 }
 // A message that an exception drops stays until the exception is reported.
 void pop_message() {
-    std::vector<Runner::Message>& all = runner().messages;
+    List<Runner::Message>& all = runner().messages;
     for (std::size_t i = all.size(); i-- > 0;) {
         if (!all[i].scoped) continue;
         if (std::uncaught_exceptions() > 0) all[i].scoped = false;
-        else all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+        else all.erase(i, i + 1);
         return;
     }
 }
@@ -3606,8 +3720,8 @@ void pop_message() {
 bool last_assertion_passed() { return hot().skip_passing && hot().silent ? !hot().case_failed : runner().last_passed; }
 
 bool section_begin(char const* file, std::uint32_t line, Text const& name) {
-    if (hot().silent || !runner().paths->enter_section(to_string(name), file, line)) return false;
-    runner().sections.push_back(to_string(name));
+    if (hot().silent || !runner().paths->enter_section(name, file, line)) return false;
+    runner().sections.push_back(name);
     runner().last_site = {file, line, go_on, "SECTION", ""};
     return true;
 }
@@ -3641,8 +3755,8 @@ PropertyOptions property_options() {
 [[nodiscard]] String shell_quoted(String const& text) {
     String out = "\"";
     for (char c : text) {
-        if (std::strchr("\"\\$`", c)) out += '\\';
-        out += c;
+        if (std::strchr("\"\\$`", c)) out.append('\\');
+        out.append(c);
     }
     return out + "\"";
 }
@@ -3650,12 +3764,11 @@ PropertyOptions property_options() {
 Text replay_command(PropertyOptions const& options, std::uint64_t index) {
     String name;
     for (char c : runner().test()->name) {
-        if (std::strchr(",[\\\"", c)) name += '\\';
-        name += c;
+        if (std::strchr(",[\\\"", c)) name.append('\\');
+        name.append(c);
     }
-    String const text = runner().config().program + " " + shell_quoted(name) + " --rng-seed " + number(options.seed) +
-                        " --property-case " + number(index);
-    return Text(text.data(), text.size());
+    return runner().config().program + " " + shell_quoted(name) + " --rng-seed " + number(options.seed) +
+           " --property-case " + number(index);
 }
 
 Silence::Silence() : before_(hot()) {
@@ -3677,13 +3790,13 @@ void rethrow_control() {
 
 void report_property(bool passed, Text const& text) {
     Site const site{runner().last_site.file, runner().last_site.line, go_on, "for_all", ""};
-    settle(site, passed ? Kind::success : Kind::failure, passed, to_string(text));
+    settle(site, passed ? Kind::success : Kind::failure, passed, text);
 }
 
 // Runs the smallest case aloud. Only its first failure is reported, with the arguments as a message.
 void report_counterexample(Property const& property, Tape& tape, Text const& summary) {
     Runner& r = runner();
-    r.messages.push_back({to_string(summary), true});
+    r.messages.push_back({summary, true});
     r.one_failure_only = true;
     r.one_failure_seen = false;
     bool stopped = false, said_no = false;
@@ -3697,7 +3810,7 @@ void report_counterexample(Property const& property, Tape& tape, Text const& sum
         throw;
     } catch (...) {
         Site const site{r.last_site.file, r.last_site.line, go_on, "for_all", ""};
-        if (!r.one_failure_seen) settle(site, Kind::exception, false, to_string(exception_text()));
+        if (!r.one_failure_seen) settle(site, Kind::exception, false, exception_text());
     }
 #else
     said_no = !property.run(property.self, choices);
@@ -3710,7 +3823,7 @@ void report_counterexample(Property const& property, Tape& tape, Text const& sum
 
 // -- listing and main --
 
-void list_tests(std::vector<Test> const& tests, Config const& config) {
+void list_tests(List<Test> const& tests, Config const& config) {
     if (!config.list_names) std::printf(config.specs.empty() ? "All available test cases:\n" : "Matching test cases:\n");
     for (Test const& test : tests) {
         std::printf(config.list_names ? "%s\n" : "  %s\n", test.name.c_str());
@@ -3722,10 +3835,10 @@ void list_tests(std::vector<Test> const& tests, Config const& config) {
     if (!config.list_names) std::printf("%s\n\n", plural(tests.size(), "test case").c_str());
 }
 
-void list_tags(std::vector<Test> const& tests) {
-    std::vector<String> all, seen;
-    for (Test const& test : tests) all.insert(all.end(), test.tags.begin(), test.tags.end());
-    std::sort(all.begin(), all.end());
+void list_tags(List<Test> const& tests) {
+    List<String> all;
+    for (Test const& test : tests) all.append(test.tags);
+    sort_list(all, [](String const& a, String const& b) { return a.order(b) < 0; });
     std::printf("All available tags:\n");
     std::size_t kinds = 0;
     for (std::size_t i = 0; i < all.size(); ++kinds) {
@@ -3737,7 +3850,7 @@ void list_tags(std::vector<Test> const& tests) {
     std::printf("%s\n\n", plural(kinds, "tag").c_str());
 }
 
-[[nodiscard]] bool listing(Config const& config, std::vector<Test> const& tests) {
+[[nodiscard]] bool listing(Config const& config, List<Test> const& tests) {
     if (config.help) print_help(config);
     else if (config.list_tests || config.list_names) list_tests(tests, config);
     else if (config.list_tags) list_tags(tests);
@@ -3749,8 +3862,9 @@ void list_tags(std::vector<Test> const& tests) {
 [[nodiscard]] int exit_code(Totals const& totals, Config const& config) {
     if (totals.tests.total() == 0) return config.warn_no_tests ? 2 : 0;
     if (totals.tests.skipped == totals.tests.total()) return 4;
-    std::uint64_t const failures = std::max(totals.assertions.failed, totals.tests.failed);
-    return static_cast<int>(std::min<std::uint64_t>(failures, 255));
+    Totals const& t = totals;
+    std::uint64_t const failures = t.assertions.failed > t.tests.failed ? t.assertions.failed : t.tests.failed;
+    return failures < 255 ? static_cast<int>(failures) : 255;
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -3771,7 +3885,7 @@ inline void watch_signals() {
 inline void watch_signals() {}
 #endif
 
-[[nodiscard]] int run_all(Config const& config, Reporter& reporter, std::vector<Test> const& tests) {
+[[nodiscard]] int run_all(Config const& config, Reporter& reporter, List<Test> const& tests) {
     Runner all(config, reporter);
     running() = &all;
     watch_signals();
@@ -3791,7 +3905,7 @@ inline void watch_signals() {}
     return 2;
 }
 
-[[nodiscard]] int run_with_reporter(Config const& config, std::vector<Test> const& tests) {
+[[nodiscard]] int run_with_reporter(Config const& config, List<Test> const& tests) {
     std::FILE* const file = config.out.empty() ? stdout : std::fopen(config.out.c_str(), "wb");
     if (!file) return complain("cannot write '" + config.out + "': " + std::strerror(errno));
     ConsoleReporter console(config, file);
@@ -3819,7 +3933,7 @@ inline void watch_signals() {}
     if (found) config.property_case = value, config.one_property_case = true;
     String const complaint = parse_command_line(config, argc, argv);
     if (!complaint.empty()) return complain(complaint);
-    std::vector<Test> tests = select_tests(config);
+    List<Test> tests = select_tests(config);
     if (listing(config, tests)) return 0;
     sort_tests(tests, config);
     return run_with_reporter(config, tests);
