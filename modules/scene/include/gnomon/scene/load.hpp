@@ -24,6 +24,7 @@ struct Limits {
     std::uint32_t max_nodes = 1U << 20U;                        ///< Instances that a node multiplies count as nodes.
     std::uint32_t max_depth = 1024;                             ///< Of the node hierarchy.
     std::uint32_t max_json_depth = 128;                         ///< Of nested brackets in the JSON.
+    std::uint64_t max_json_values = std::uint64_t{1} << 23U;    ///< Numbers, strings and brackets of the JSON.
     std::uint32_t max_image_side_px = 16384;
     std::uint64_t max_image_bytes = std::uint64_t{1} << 30U;  ///< Of all decoded images together.
     std::uint32_t max_warnings = 32;
