@@ -48,7 +48,21 @@ void set_large(Oriented const& t, Record& record) {
     record.g2 = t.z[2];
 }
 
-void set_regular(Oriented const& t, Record& record) {
+/// Whether bounds of at most 2 x 2 samples hold none that is covered. Larger ones are left to the tiles.
+bool covers_none(Record const& r) {
+    int const columns = r.max_x - r.min_x;
+    int const rows = r.max_y - r.min_y;
+    if (columns > 1 || rows > 1) return false;
+    for (int y = 0; y <= rows; ++y)
+        for (int x = 0; x <= columns; ++x) {
+            std::int32_t signs = 0;
+            for (int i = 0; i < 3; ++i) signs |= r.edge[i] + r.step_x[i] * x + r.step_y[i] * y;
+            if (signs >= 0) return false;
+        }
+    return true;
+}
+
+Fate set_regular(Oriented const& t, Record& record) {
     std::int32_t fraction[3];
     for (int i = 0; i < 3; ++i) {
         ShiftedEdge const e = shifted_edge(t, i, record.min_x, record.min_y);
@@ -57,10 +71,12 @@ void set_regular(Oriented const& t, Record& record) {
         record.step_y[i] = e.step_y;
         fraction[i] = e.fraction;
     }
+    if (covers_none(record)) return Fate::no_sample;
     DepthGradient const g = depth_gradient(t, fraction[2], fraction[0]);
     record.z0 = static_cast<float>(g.z0);
     record.g1 = static_cast<float>(g.g1);
     record.g2 = static_cast<float>(g.g2);
+    return Fate::drawn;
 }
 
 Fate make_record(SetupJob const& job, Corner const& a, Corner const& b, Corner const& c, Facing facing, Record& record) {
@@ -72,11 +88,9 @@ Fate make_record(SetupJob const& job, Corner const& a, Corner const& b, Corner c
     Fate const fate = set_bounds(t, job, record);
     if (fate != Fate::drawn) return fate;
     bool const large = is_large(t);
-    if (large)
-        set_large(t, record);
-    else
-        set_regular(t, record);
     record.tag = job.tag | (large ? 1U : 0U);
+    if (!large) return set_regular(t, record);
+    set_large(t, record);
     return fate;
 }
 

@@ -53,7 +53,7 @@ struct PassStats {
     std::uint64_t outside = 0;     ///< Wholly outside the clip volume or the scissor rectangle.
     std::uint64_t degenerate = 0;  ///< No area once snapped.
     std::uint64_t culled = 0;      ///< By the way it faces.
-    std::uint64_t no_sample = 0;   ///< Its bounds hold no pixel centre. Exact, not a guess.
+    std::uint64_t no_sample = 0;   ///< Small, and covers no pixel centre. Exact, not a guess.
     std::uint64_t drawn = 0;       ///< Went on to the tiles.
     std::uint64_t clipped = 0;     ///< Went through the clipper; counted above as well.
     std::uint64_t samples_written = 0;  ///< Depth tests passed, in draw order.

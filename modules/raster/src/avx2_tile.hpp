@@ -1,0 +1,238 @@
+#pragma once
+// Samples of one tile, eight at a time. Narrow triangles go row by row; wide ones by blocks of 8 x 8 samples, all eight
+// blocks of a row of blocks classified at once. Included by kernel_simd.cpp only.
+
+#include "avx2.hpp"
+#include "sample_loop.hpp"
+
+namespace gnomon::raster::detail {
+
+namespace {
+
+/// What a kernel is compiled for.
+template <bool Reversed, bool Quantize, bool Ids>
+struct Mode {
+    static constexpr bool reversed = Reversed;
+    static constexpr bool quantize = Quantize;
+    static constexpr bool ids = Ids;
+};
+
+/// Compares and writes eight samples; a sample is covered where the sign of `outside` is clear.
+///
+/// returns: a bit for each sample written.
+template <class M>
+GNOMON_AVX2_INLINE std::uint32_t write_x8(__m256 z, __m256i outside, float* depth, std::uint32_t* id, __m256i record_id) {
+    z = _mm256_min_ps(_mm256_max_ps(z, _mm256_setzero_ps()), all_of(1.0F));
+    if constexpr (M::quantize) {
+        __m256 const magic = all_of(8388608.0F);
+        z = _mm256_sub_ps(_mm256_add_ps(_mm256_mul_ps(z, all_of(65535.0F)), magic), magic);
+    }
+    __m256 const held = _mm256_loadu_ps(depth);
+    __m256 const nearer = M::reversed ? _mm256_cmp_ps(z, held, _CMP_GT_OQ) : _mm256_cmp_ps(z, held, _CMP_LT_OQ);
+    __m256 const write = _mm256_andnot_ps(as_float(outside), nearer);
+    auto const bits = static_cast<std::uint32_t>(_mm256_movemask_ps(write));
+    _mm256_storeu_ps(depth, _mm256_blendv_ps(held, z, write));
+    if constexpr (M::ids) {
+        __m256i* const at = reinterpret_cast<__m256i*>(id);
+        _mm256_storeu_si256(at, select(_mm256_loadu_si256(at), record_id, as_int(write)));
+    }
+    return bits;
+}
+
+/// Edges and depth of a regular triangle, stepping through eight columns at once.
+struct RegularDepth {
+    __m256 z0, g1, g2;
+    GNOMON_AVX2_INLINE __m256 at(__m256i e20, __m256i e01) const {
+        return _mm256_add_ps(z0, _mm256_add_ps(_mm256_mul_ps(_mm256_cvtepi32_ps(e20), g1), _mm256_mul_ps(_mm256_cvtepi32_ps(e01), g2)));
+    }
+};
+
+template <class M>
+GNOMON_AVX2_INLINE std::uint64_t draw_narrow(TileJob const& job, Record const& r, PixelRange const& range) {
+    std::int32_t const dx = range.x0 - r.min_x;
+    std::int32_t const dy = range.y0 - r.min_y;
+    __m256i e[3];
+    __m256i step[3];
+    for (int i = 0; i < 3; ++i) {
+        e[i] = _mm256_add_epi32(all_of(r.edge[i] + r.step_x[i] * dx + r.step_y[i] * dy),
+                                _mm256_mullo_epi32(iota(), all_of(r.step_x[i])));
+        step[i] = all_of(r.step_y[i]);
+    }
+    RegularDepth const plane{all_of(r.z0), all_of(r.g1), all_of(r.g2)};
+    __m256i const id = all_of(static_cast<std::int32_t>(r.id));
+    std::uint32_t const columns = (1U << (range.x1 - range.x0)) - 1U;
+    std::ptrdiff_t at = std::ptrdiff_t{range.y0 - job.y0} * tile_pitch + (range.x0 - job.x0);
+    std::uint64_t written = 0;
+    for (std::int32_t y = range.y0; y < range.y1; ++y, at += tile_pitch) {
+        __m256i const outside = _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
+        std::uint32_t const bits = write_x8<M>(plane.at(e[2], e[0]), outside, job.depth + at, M::ids ? job.id + at : nullptr, id);
+        written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
+        for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], step[i]);
+    }
+    return written;
+}
+
+/// An edge function over a tile, from the tile's first pixel. Both kinds of triangle come down to three of these.
+struct TileEdge {
+    std::int32_t value, step_x, step_y;
+};
+
+/// Depth of a large triangle over a tile: exact integers in double.
+struct LargeDepth {
+    DepthGradient g;
+    double e20, e01, x20, x01, y20, y01;  // At the tile's first pixel, and per column and row.
+
+    GNOMON_AVX2_INLINE __m128 four(double a, double b, double first) const {
+        __m256d const column = _mm256_add_pd(_mm256_set1_pd(first), _mm256_setr_pd(0.0, 1.0, 2.0, 3.0));
+        __m256d const w20 = _mm256_add_pd(_mm256_set1_pd(a), _mm256_mul_pd(column, _mm256_set1_pd(x20)));
+        __m256d const w01 = _mm256_add_pd(_mm256_set1_pd(b), _mm256_mul_pd(column, _mm256_set1_pd(x01)));
+        __m256d const sum = _mm256_add_pd(_mm256_mul_pd(w20, _mm256_set1_pd(g.g1)), _mm256_mul_pd(w01, _mm256_set1_pd(g.g2)));
+        return _mm256_cvtpd_ps(_mm256_add_pd(_mm256_set1_pd(g.z0), sum));
+    }
+    GNOMON_AVX2_INLINE __m256 at(std::int32_t x, std::int32_t y) const {
+        double const a = e20 + y20 * y;
+        double const b = e01 + y01 * y;
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(four(a, b, x)), four(a, b, x + 4), 1);
+    }
+};
+
+/// Blocks of one row of blocks: a bit for each that has a covered sample (`touched`, conservative) and that has no
+/// uncovered one (`full`, exact).
+struct BlockRow {
+    std::uint32_t touched, full;
+};
+
+GNOMON_AVX2_INLINE BlockRow classify(TileEdge const (&edge)[3], std::int32_t row) {
+    __m256i highest = _mm256_setzero_si256();
+    __m256i lowest = highest;
+    for (TileEdge const& e : edge) {
+        // The greatest and least value over a block are at corners: 7 steps along where the step is positive.
+        std::int32_t const up = (e.step_x > 0 ? 7 * e.step_x : 0) + (e.step_y > 0 ? 7 * e.step_y : 0);
+        std::int32_t const down = (e.step_x < 0 ? 7 * e.step_x : 0) + (e.step_y < 0 ? 7 * e.step_y : 0);
+        __m256i const at = _mm256_add_epi32(all_of(e.value + row * e.step_y), _mm256_mullo_epi32(iota(), all_of(8 * e.step_x)));
+        highest = _mm256_or_si256(highest, _mm256_add_epi32(at, all_of(up)));
+        lowest = _mm256_or_si256(lowest, _mm256_add_epi32(at, all_of(down)));
+    }
+    return {~sign_bits(highest) & 0xFFU, ~sign_bits(lowest) & 0xFFU};
+}
+
+/// `range` counted from the tile's first pixel.
+template <class M, class Depth>
+GNOMON_AVX2_INLINE std::uint64_t draw_blocks(TileJob const& job, TileEdge const (&edge)[3], PixelRange const& range,
+                                             std::uint32_t record_id, Depth const& depth) {
+    __m256i lane[3];
+    for (int i = 0; i < 3; ++i) lane[i] = _mm256_mullo_epi32(iota(), all_of(edge[i].step_x));
+    __m256i const id = all_of(static_cast<std::int32_t>(record_id));
+    std::uint32_t const wanted = (0xFFU << (range.x0 >> 3)) & (0xFFU >> (7 - ((range.x1 - 1) >> 3)));
+    std::uint64_t written = 0;
+    for (std::int32_t row = range.y0 & ~7; row < range.y1; row += 8) {
+        BlockRow const blocks = classify(edge, row);
+        std::int32_t const first = row > range.y0 ? row : range.y0;
+        std::int32_t const last = row + 8 < range.y1 ? row + 8 : range.y1;
+        for (std::uint32_t left = blocks.touched & wanted; left != 0; left &= left - 1) {
+            int const block = __builtin_ctz(left);
+            std::int32_t const x = block * 8;
+            // Columns beyond the range are drawn into the tile's margin and not counted.
+            std::uint32_t const columns = range.x1 - x >= 8 ? 0xFFU : (1U << (range.x1 - x)) - 1U;
+            bool const full = ((blocks.full >> block) & 1U) != 0;
+            __m256i e[3];
+            for (int i = 0; i < 3; ++i)
+                e[i] = _mm256_add_epi32(all_of(edge[i].value + x * edge[i].step_x + first * edge[i].step_y), lane[i]);
+            std::ptrdiff_t at = std::ptrdiff_t{first} * tile_pitch + x;
+            for (std::int32_t y = first; y < last; ++y, at += tile_pitch) {
+                __m256i const outside = full ? _mm256_setzero_si256() : _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
+                std::uint32_t const bits = write_x8<M>(depth.at(e, x, y), outside, job.depth + at, M::ids ? job.id + at : nullptr, id);
+                written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
+                for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], all_of(edge[i].step_y));
+            }
+        }
+    }
+    return written;
+}
+
+struct RegularBlocks {
+    RegularDepth plane;
+    GNOMON_AVX2_INLINE __m256 at(__m256i const (&e)[3], std::int32_t, std::int32_t) const { return plane.at(e[2], e[0]); }
+};
+
+struct LargeBlocks {
+    LargeDepth plane;
+    GNOMON_AVX2_INLINE __m256 at(__m256i const (&)[3], std::int32_t x, std::int32_t y) const { return plane.at(x, y); }
+};
+
+GNOMON_AVX2_INLINE PixelRange from_tile(TileJob const& job, PixelRange const& range) {
+    return {range.x0 - job.x0, range.y0 - job.y0, range.x1 - job.x0, range.y1 - job.y0};
+}
+
+template <class M>
+GNOMON_AVX2 std::uint64_t draw_wide(TileJob const& job, Record const& r, PixelRange const& range) {
+    TileEdge edge[3];
+    for (int i = 0; i < 3; ++i)
+        edge[i] = {r.edge[i] + r.step_x[i] * (job.x0 - r.min_x) + r.step_y[i] * (job.y0 - r.min_y), r.step_x[i], r.step_y[i]};
+    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, RegularBlocks{{all_of(r.z0), all_of(r.g1), all_of(r.g2)}});
+}
+
+/// The edge over the tile in 32 bits. Where it does not change sign within the tile, only the sign is kept; where it
+/// does, all its values are within 63 (|step_x| + |step_y|) < 2^31.
+///
+/// returns: false when the whole tile is outside.
+GNOMON_AVX2_INLINE bool narrow_edge(ShiftedEdge const& e, TileEdge& out) {
+    std::int64_t const x = std::int64_t{e.step_x} * (tile_size - 1);
+    std::int64_t const y = std::int64_t{e.step_y} * (tile_size - 1);
+    std::int64_t const highest = e.value + (x > 0 ? x : 0) + (y > 0 ? y : 0);
+    std::int64_t const lowest = e.value + (x < 0 ? x : 0) + (y < 0 ? y : 0);
+    if (highest < 0) return false;
+    out = lowest >= 0 ? TileEdge{0, 0, 0} : TileEdge{static_cast<std::int32_t>(e.value), e.step_x, e.step_y};
+    return true;
+}
+
+template <class M>
+GNOMON_AVX2 std::uint64_t draw_large_x8(TileJob const& job, Record const& r, PixelRange const& range) {
+    Oriented const t = oriented_of_large(r);
+    ShiftedEdge e[3];
+    TileEdge edge[3];
+    for (int i = 0; i < 3; ++i) {
+        e[i] = shifted_edge(t, i, job.x0, job.y0);
+        if (!narrow_edge(e[i], edge[i])) return 0;
+    }
+    LargeDepth const depth{depth_gradient(t, e[2].fraction, e[0].fraction),
+                           static_cast<double>(e[2].value),
+                           static_cast<double>(e[0].value),
+                           static_cast<double>(e[2].step_x),
+                           static_cast<double>(e[0].step_x),
+                           static_cast<double>(e[2].step_y),
+                           static_cast<double>(e[0].step_y)};
+    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, LargeBlocks{depth});
+}
+
+template <class M>
+GNOMON_AVX2 std::uint64_t draw_tile_x8(TileJob const& job, Record const* records, std::uint32_t const* entries, std::size_t count) {
+    std::uint64_t written = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        Record const& r = records[entries[i]];
+        PixelRange const range = range_in_tile(job, r);
+        if (range.x1 <= range.x0 || range.y1 <= range.y0) continue;
+        if (r.tag == 0)
+            written += range.x1 - range.x0 <= 8 ? draw_narrow<M>(job, r, range) : draw_wide<M>(job, r, range);
+        else if (r.tag == 1)
+            written += draw_large_x8<M>(job, r, range);
+        else
+            written += job.masked(job, r);
+    }
+    return written;
+}
+
+GNOMON_AVX2 std::uint64_t avx2_tile(TileJob const& job, Record const* records, std::uint32_t const* entries, std::size_t count) {
+    if (job.id != nullptr)
+        return job.reversed ? draw_tile_x8<Mode<true, false, true>>(job, records, entries, count)
+                            : draw_tile_x8<Mode<false, false, true>>(job, records, entries, count);
+    if (job.quantize)
+        return job.reversed ? draw_tile_x8<Mode<true, true, false>>(job, records, entries, count)
+                            : draw_tile_x8<Mode<false, true, false>>(job, records, entries, count);
+    return job.reversed ? draw_tile_x8<Mode<true, false, false>>(job, records, entries, count)
+                        : draw_tile_x8<Mode<false, false, false>>(job, records, entries, count);
+}
+
+}  // namespace
+
+}  // namespace gnomon::raster::detail
