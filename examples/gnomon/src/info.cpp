@@ -27,14 +27,14 @@ std::string range_of(pipeline::ParamInfo const& param) {
 }
 
 std::string techniques_text() {
-    std::string text = "techniques\n";
+    std::string text;
     for (pipeline::Technique const& technique : pipeline::techniques()) {
-        text += fmt::format("\n  {}: {}\n", technique.name, technique.summary);
-        for (pipeline::ParamInfo const& param : technique.params) {
-            std::string const unit = param.unit.empty() ? "" : fmt::format(" {}", param.unit);
-            text += fmt::format("    --param {}.{}={}{}   ({}{})\n        {}\n", technique.name, param.name, param.default_text,
-                                "", range_of(param), unit, param.doc);
-        }
+        std::vector<std::vector<std::string>> rows;
+        for (pipeline::ParamInfo const& param : technique.params)
+            rows.push_back({fmt::format("  {}.{}={}", technique.name, param.name, param.default_text), range_of(param),
+                            std::string(param.unit), std::string(param.doc)});
+        text += fmt::format("\ntechnique {}: {}\n", technique.name, technique.summary);
+        text += rows.empty() ? "  no parameters\n" : aligned(rows, {.left = 4});
     }
     return text;
 }

@@ -34,10 +34,19 @@ std::string verdict_html(Report const& report) {
     if (report.samples == 0) return "<p class='lead'>The view sees nothing of the scene.</p>\n";
     if (best == nullptr) return "<p class='lead'>Every run agrees with the exact shadows on every sample.</p>\n";
     auto const speed = speed_over_ray(report, *best);
-    std::string const pace =
-        speed ? fmt::format(", at {} times the speed of tracing exact rays", figures(*speed)) : std::string{};
+    std::string const pace = !speed          ? ""
+                             : *speed >= 1.0 ? fmt::format(", and is {} times as fast as tracing exact rays", figures(*speed))
+                                             : fmt::format(", and takes {} times as long as tracing exact rays", figures(1.0 / *speed));
     return fmt::format("<p class='lead'>The least wrong approximation here, {}, decides {} % of the visible samples "
                        "wrongly{}.</p>\n", escaped(best->label), percent(best->result.error.wrong_fraction), pace);
+}
+
+/// The overlays' own colours, so that the legend shows what the pictures show.
+std::string css_color(math::vec3 const& linear) {
+    auto const encoded = [](float c) {
+        return 255.0F * (c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F);
+    };
+    return fmt::format("rgb({:.0f} {:.0f} {:.0f})", encoded(linear.x), encoded(linear.y), encoded(linear.z));
 }
 
 std::string facts_html(Report const& report) {
@@ -130,8 +139,9 @@ std::string page_html(Report const& report, ReportPictures const& pictures) {
     std::string const title = fmt::format("Shadows of {}, measured", report.scene);
     std::string html = fmt::format(
         "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
-        "<meta name='viewport' content='width=device-width, initial-scale=1'>\n<title>{0}</title>\n<style>{1}</style></head>\n"
-        "<body><main>\n<h1>{0}</h1>\n", escaped(title), page_style);
+        "<meta name='viewport' content='width=device-width, initial-scale=1'>\n<title>{0}</title>\n<style>{1}:root {{ --lit: {2}; "
+        "--shadow: {3}; }}</style></head>\n<body><main>\n<h1>{0}</h1>\n",
+        escaped(title), page_style, css_color(pipeline::false_lit_color), css_color(pipeline::false_shadow_color));
     html += verdict_html(report);
     html += fmt::format("<div class='top'><figure>{}<figcaption>The scene with exact shadows: the reference that every run "
                         "is measured against.</figcaption></figure>\n",

@@ -7,16 +7,16 @@ namespace gnomon::command {
 
 inline constexpr std::string_view page_style = R"css(
 :root { color-scheme: light dark; --ink: #1c2126; --soft: #5b6670; --line: #dde2e6; --paper: #fbfbf9; --card: #ffffff;
-  --lit: #d95f02; --shadow: #1f6fd6; --s0: #0b6e4f; --s1: #7a3fb5; --s2: #b5482a; --s3: #1c6aa8; --s4: #8a6d00; --s5: #5b6670; }
+  --s0: #0b6e4f; --s1: #7a3fb5; --s2: #b5482a; --s3: #1c6aa8; --s4: #8a6d00; --s5: #5b6670; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e7eaec; --soft: #9aa5ae; --line: #333a41; --paper: #15181b;
-  --card: #1d2125; --lit: #ff9a3d; --shadow: #6aa8ff; --s0: #4fc79a; --s1: #c09af0; --s2: #f08a6c; --s3: #70b7ee; --s4: #d9bc4a; --s5: #9aa5ae; } }
+  --card: #1d2125; --s0: #4fc79a; --s1: #c09af0; --s2: #f08a6c; --s3: #70b7ee; --s4: #d9bc4a; --s5: #9aa5ae; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.55 system-ui, "Segoe UI", Roboto, sans-serif; }
 main { max-width: 1120px; margin: 0 auto; padding: 40px 24px 72px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 6px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { font-size: 20px; margin: 48px 0 12px; font-weight: 650; }
 h3 { font-size: 16px; margin: 0; font-weight: 650; overflow-wrap: anywhere; }
-p { max-width: 72ch; margin: 0 0 12px; }
+p { max-width: 78ch; margin: 0 0 12px; }
 .lead { font-size: 18px; color: var(--soft); margin-bottom: 24px; }
 .soft { color: var(--soft); font-size: 14px; }
 code { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
@@ -28,7 +28,7 @@ img { display: block; width: 100%; height: auto; border-radius: 6px; cursor: zoo
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: 6px 16px; margin: 0; font-size: 14px; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
-.wide { overflow-x: auto; }
+.wide { overflow-x: auto; margin-bottom: 14px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }
 th, td { padding: 8px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { font-weight: 600; color: var(--soft); border-bottom-color: var(--soft); vertical-align: bottom; }
@@ -57,7 +57,7 @@ td:first-child { font-weight: 600; white-space: normal; }
 .choice input { position: absolute; opacity: 0; pointer-events: none; }
 .choice label { padding: 3px 12px; cursor: pointer; color: var(--soft); }
 .choice input:checked + label { background: var(--ink); color: var(--paper); }
-.choice input:focus-visible + label { outline: 2px solid var(--shadow); outline-offset: -2px; }
+.choice input:focus-visible + label { outline: 2px solid var(--s3); outline-offset: -2px; }
 details { margin-top: 10px; font-size: 14px; } summary { cursor: pointer; color: var(--soft); }
 details dl { margin-top: 8px; }
 dialog { border: 0; padding: 0; background: #000; max-width: 100vw; max-height: 100vh; overflow: auto; }

@@ -28,7 +28,7 @@ std::string list_of_scenes() {
         rows.push_back({std::string(info.name), grouped(info.default_triangles), join(options, " ")});
         descriptions += fmt::format("{}: {}\n", info.name, info.description);
     }
-    return aligned(rows, false) + '\n' + descriptions +
+    return aligned(rows) + '\n' + descriptions +
            "\nAny .gltf or .glb file is a scene too. `gnomon scenes NAME` says more about one of either kind.\n";
 }
 
@@ -47,7 +47,7 @@ std::string facts_about(LoadedScene const& loaded) {
         {"instances", grouped(scene.instances.size())},
         {"materials", grouped(scene.materials.size())},
         {"images", grouped(scene.images.size())}};
-    std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\n", loaded.text, aligned(numbers, false),
+    std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\n", loaded.text, aligned(numbers),
                                    names_and_count(scene.cameras), names_and_count(scene.lights));
     for (std::string const& warning : scene.notes.warnings) text += "note    " + warning + '\n';
     return text;

@@ -26,7 +26,7 @@ std::string figures(double value) {
 
 std::string percent(double fraction) { return figures(fraction * 100.0); }
 
-std::string aligned(std::vector<std::vector<std::string>> const& rows, bool bold_first_row) {
+std::string aligned(std::vector<std::vector<std::string>> const& rows, TableLook look) {
     std::vector<std::size_t> widths;
     for (auto const& row : rows) {
         widths.resize(std::max(widths.size(), row.size()));
@@ -36,9 +36,10 @@ std::string aligned(std::vector<std::vector<std::string>> const& rows, bool bold
     for (std::size_t r = 0; r < rows.size(); ++r) {
         std::string line;
         for (std::size_t i = 0; i < rows[r].size(); ++i)
-            line += i == 0 ? fmt::format("{:<{}}", rows[r][i], widths[i]) : fmt::format("  {:>{}}", rows[r][i], widths[i]);
+            line += (i == 0 ? "" : "  ") + (i < look.left ? fmt::format("{:<{}}", rows[r][i], widths[i])
+                                                    : fmt::format("{:>{}}", rows[r][i], widths[i]));
         line.erase(line.find_last_not_of(' ') + 1);
-        text += bold_first_row && r == 0 ? "\x1b[1m" + line + "\x1b[0m\n" : line + '\n';
+        text += look.bold_head && r == 0 ? "\x1b[1m" + line + "\x1b[0m\n" : line + '\n';
     }
     return text;
 }
@@ -57,7 +58,7 @@ std::string table_text(Report const& report, bool styled) {
                         figures(error.edge_px.mean), figures(error.edge_px.max), figures(run.result.ms.median),
                         speed ? figures(*speed) : "-"});
     }
-    return text + aligned(rows, styled);
+    return text + aligned(rows, {.bold_head = styled});
 }
 
 }  // namespace gnomon::command

@@ -15,8 +15,13 @@ namespace gnomon::command {
 /// Three figures without an exponent; "inf" where it is infinite.
 [[nodiscard]] std::string figures(double value);
 
-/// Columns padded to their widest cell, the first to the left and the others to the right.
-[[nodiscard]] std::string aligned(std::vector<std::vector<std::string>> const& rows, bool bold_first_row);
+struct TableLook {
+    std::size_t left = 1;     ///< This many columns stand to the left, the others to the right.
+    bool bold_head = false;   ///< For terminals.
+};
+
+/// Columns padded to their widest cell.
+[[nodiscard]] std::string aligned(std::vector<std::vector<std::string>> const& rows, TableLook look = {});
 
 /// One row a run, under a line that says what was looked at.
 ///

@@ -25,9 +25,9 @@ TEST_CASE("figures keep three digits and never turn a small error into none", "[
 }
 
 TEST_CASE("columns stand in line, and colour is for terminals", "[table]") {
-    std::string const text = aligned({{"run", "ms"}, {"a long name", "1.25"}, {"b", "100"}}, false);
+    std::string const text = aligned({{"run", "ms"}, {"a long name", "1.25"}, {"b", "100"}});
     CHECK(text == "run            ms\na long name  1.25\nb             100\n");
-    CHECK(aligned({{"run"}}, true).find('\x1b') != std::string::npos);
+    CHECK(aligned({{"run"}}, {.bold_head = true}).find('\x1b') != std::string::npos);
 }
 
 TEST_CASE("a PNG says its size, and a data URI is base64 with padding", "[image]") {
