@@ -68,7 +68,14 @@ Result<Done> validate_materials(Scene const& scene) {
             return broken(nth("texture", i) + " names image " + std::to_string(scene.textures[i].image) + " of " +
                           std::to_string(scene.images.size()) + "; give one that exists");
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        TextureUse const& use = scene.materials[i].base_color_texture;
+        Material const& m = scene.materials[i];
+        TextureUse const& use = m.base_color_texture;
+        double sum = static_cast<double>(m.metallic) + static_cast<double>(m.roughness) + static_cast<double>(m.alpha_cutoff) +
+                     static_cast<double>(use.offset.x) + static_cast<double>(use.offset.y) + static_cast<double>(use.scale.x) +
+                     static_cast<double>(use.scale.y) + static_cast<double>(use.rotation_rad);
+        for (int c = 0; c < 3; ++c) sum += static_cast<double>(m.base_color[c]) + static_cast<double>(m.emissive[c]);
+        if (!math::is_finite(sum + static_cast<double>(m.base_color.w)))
+            return broken(nth("material", i) + " has a NaN or an infinity; give finite numbers");
         if (use.texture != none && use.texture >= scene.textures.size())
             return broken(nth("material", i) + " names texture " + std::to_string(use.texture) + " of " +
                           std::to_string(scene.textures.size()) + "; give one that exists, or none");
@@ -79,7 +86,7 @@ Result<Done> validate_materials(Scene const& scene) {
     return Done{};
 }
 
-Result<Done> validate_poses(Scene const& scene) {
+Result<Done> validate_instances(Scene const& scene) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         Instance const& instance = scene.instances[i];
         if (instance.mesh >= scene.meshes.size())
@@ -88,14 +95,39 @@ Result<Done> validate_poses(Scene const& scene) {
         if (!is_finite_matrix(instance.world_from_mesh))
             return broken(nth("instance", i) + " has a NaN or an infinity in its matrix; give finite numbers");
     }
+    return Done{};
+}
+
+bool is_unit(math::dvec3 const& v) noexcept { return std::abs(glm::dot(v, v) - 1.0) < 1e-3; }
+
+Result<Done> validate_cameras(Scene const& scene) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         Camera const& c = scene.cameras[i];
-        if (!math::is_finite(c.eye_m) || !math::is_finite(c.right) || !math::is_finite(c.up) || !math::is_finite(c.back))
-            return broken(nth("camera", i) + " has a NaN or an infinity in its pose; give finite numbers");
+        if (!math::is_finite(c.eye_m) || !is_unit(c.right) || !is_unit(c.up) || !is_unit(c.back))
+            return broken(nth("camera", i) + " has no finite position and axes of length 1; give it some");
+        bool const perspective = c.kind == CameraKind::perspective;
+        bool const opens = perspective ? c.fov_y_rad > 0.0 && c.fov_y_rad < 3.14159265358979323846 && c.near_m > 0.0
+                                       : c.half_width_m > 0.0 && c.half_height_m > 0.0 && math::is_finite(c.far_m) &&
+                                             math::is_finite(c.half_width_m) && math::is_finite(c.half_height_m);
+        if (!opens || !math::is_finite(c.near_m) || !(c.near_m < c.far_m))
+            return broken(nth("camera", i) + " has near " + std::to_string(c.near_m) + " m, far " +
+                          std::to_string(c.far_m) + " m, or a field that is not open; give near < far and a field above 0");
     }
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (!math::is_finite(scene.lights[i].position_m) || !math::is_finite(scene.lights[i].direction))
-            return broken(nth("light", i) + " has a NaN or an infinity in its pose; give finite numbers");
+    return Done{};
+}
+
+Result<Done> validate_lights(Scene const& scene) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        Light const& l = scene.lights[i];
+        if (!math::is_finite(l.position_m) || !is_unit(l.direction))
+            return broken(nth("light", i) + " has no finite position and direction of length 1; give it some");
+        bool const shines = math::is_finite(l.color) && math::is_finite(l.intensity) && l.intensity >= 0.0F && l.range_m > 0.0F;
+        bool const opens = l.inner_cone_rad >= 0.0F && l.inner_cone_rad <= l.outer_cone_rad && l.outer_cone_rad < 1.58F;
+        if (!shines || !opens)
+            return broken(nth("light", i) + " has intensity " + std::to_string(l.intensity) + ", range " +
+                          std::to_string(l.range_m) + " m and cones " + std::to_string(l.inner_cone_rad) + " and " +
+                          std::to_string(l.outer_cone_rad) + " rad; give intensity >= 0, range > 0, inner <= outer <= pi/2");
+    }
     return Done{};
 }
 
@@ -124,7 +156,9 @@ Result<Done> validate(Scene const& scene) {
                                              nth("mesh", m) + ", " + nth("primitive", p));
                 !ok)
                 return ok;
-    return validate_poses(scene);
+    if (auto ok = validate_instances(scene); !ok) return ok;
+    if (auto ok = validate_cameras(scene); !ok) return ok;
+    return validate_lights(scene);
 }
 
 Camera looking_at(std::string name, math::dvec3 const& eye_m, math::dvec3 const& target_m, double fov_y_rad) {
