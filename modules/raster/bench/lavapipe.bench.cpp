@@ -1,0 +1,112 @@
+// Ours against lavapipe, one thread each, the two interleaved in one run: medians of five, and how the images differ.
+//
+// `ms`, `lavapipe_ms`: CPU time of the whole process between submit and done, which is one thread's work on either side
+// and stays honest on a loaded machine; `wall_*`: the clock on the wall. `ratio` is lavapipe_ms / ms.
+
+#if GNOMON_HAS_VULKAN
+
+#include <gnomon/raster.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "city.hpp"
+#include "lavapipe_pass.hpp"
+
+namespace {
+
+using namespace gnomon;
+
+double now_ms(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+struct Times {
+    std::vector<double> cpu, wall;
+    template <class F>
+    void measure(F&& f) {
+        double const wall_start = now_ms(CLOCK_MONOTONIC);
+        double const cpu_start = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+        f();
+        cpu.push_back(now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu_start);
+        wall.push_back(now_ms(CLOCK_MONOTONIC) - wall_start);
+    }
+};
+
+double median(std::vector<double> v) {
+    std::sort(v.begin(), v.end());
+    return v[v.size() / 2];
+}
+
+/// Pixels that only one image covers, and the greatest difference where both do.
+void compare(benchmark::State& state, std::vector<float> const& ours, std::vector<float> const& theirs) {
+    std::size_t coverage = 0;
+    std::size_t beyond = 0;
+    float depth = 0.0F;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        if ((ours[i] == 1.0F) != (theirs[i] == 1.0F)) {
+            ++coverage;
+            continue;
+        }
+        float const difference = std::abs(ours[i] - theirs[i]);
+        beyond += difference > 2e-6F ? 1U : 0U;
+        // A pixel on an edge between surfaces may see either; its difference says nothing about depth.
+        if (difference < 1e-4F) depth = std::max(depth, difference);
+    }
+    state.counters["coverage_px"] = static_cast<double>(coverage);
+    state.counters["beyond_2e-6_px"] = static_cast<double>(beyond);
+    state.counters["depth_e-6"] = static_cast<double>(depth) * 1e6;
+}
+
+void against_lavapipe(benchmark::State& state) {
+    static bench::Vulkan const vk;
+    if (vk.device == VK_NULL_HANDLE) {
+        state.SkipWithError("no lavapipe on this machine (Debian: mesa-vulkan-drivers)");
+        return;
+    }
+    bench::City const city = bench::make_city(static_cast<int>(state.range(0)));
+    auto const size = static_cast<std::int32_t>(state.range(2));
+    math::View const view = bench::make_view(state.range(1) == 0, size);
+    raster::Draw const draw{.positions = std::span<math::vec3 const>(city.positions),
+                            .indices = std::span<std::uint32_t const>(city.indices),
+                            .origin = math::to_float(view.eye_m),
+                            .clip_from_relative = math::clip_from_relative(view)};
+    bench::LavapipePass const peer(vk, city.positions, city.indices, static_cast<std::uint32_t>(size),
+                                   {draw.clip_from_relative, math::vec4(draw.origin.x, draw.origin.y, draw.origin.z, 0)});
+    std::vector<float> depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    raster::Workspace workspace;
+    core::SerialExecutor serial;
+    auto const ours = [&] {
+        raster::depth_pass({&draw, 1}, raster::make_image(depth.data(), size, size), {.depth = math::Depth::forward}, workspace, serial);
+    };
+    ours();
+    peer.draw();
+    Times mine;
+    Times theirs;
+    for (auto _ : state) {
+        mine.measure(ours);
+        theirs.measure([&] { peer.draw(); });
+    }
+    compare(state, depth, peer.read());
+    state.counters["ms"] = median(mine.cpu);
+    state.counters["lavapipe_ms"] = median(theirs.cpu);
+    state.counters["ratio"] = median(theirs.cpu) / median(mine.cpu);
+    state.counters["wall_ms"] = median(mine.wall);
+    state.counters["wall_lavapipe_ms"] = median(theirs.wall);
+    state.counters["wall_ratio"] = median(theirs.wall) / median(mine.wall);
+}
+
+BENCHMARK(against_lavapipe)
+    ->ArgNames({"city", "persp", "px"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1}, {1024, 2048, 4096}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+}  // namespace
+
+#endif
