@@ -271,7 +271,7 @@ GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t 
             slow = (slow | ~sign_bits(_mm256_cmpeq_epi32(any, zero))) & alive;
         }
         alive &= ~slow;
-        __m256i words[16];
+        __m256i words[16] = {};  // store_mixed copies all of it, also where no lane is alive
         std::uint32_t const keep = alive != 0 ? make_words(job, v, bounds, alive, counts, words) : 0;
         if ((keep | slow) == 0) continue;
         words[12] = _mm256_add_epi32(iota(), all_of(static_cast<std::int32_t>(job.id_base + static_cast<std::uint32_t>(begin))));
