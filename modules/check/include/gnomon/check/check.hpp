@@ -2114,7 +2114,7 @@ Text& Text::append(char const* text, std::size_t size) {
         delete[] data_;
         data_ = grown;
         capacity_ = capacity;
-    } else if (size != 0) {
+    } else if (size != 0 && data_ != nullptr) {  // room for it means that there is data; GCC cannot know
         std::memcpy(data_ + size_, text, size);
     }
     size_ += size;
