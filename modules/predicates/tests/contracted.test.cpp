@@ -34,7 +34,7 @@
 #elif defined(__x86_64__) && defined(__GNUC__)
 #pragma GCC push_options
 #pragma GCC target("fma")
-#pragma GCC optimize("fp-contract=fast")
+#pragma GCC optimize("O2", "fp-contract=fast")
 #define GNOMON_TEST_HAS_FMA 1
 #else
 #define GNOMON_TEST_HAS_FMA 0

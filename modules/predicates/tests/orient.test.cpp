@@ -88,7 +88,7 @@ TEST_CASE("NaN and infinity anywhere give zero, not a wrong side", "[predicates]
         for (int which = 0; which < 12; ++which) {
             math::vec3 p[4] = {math::vec3(0.0F), math::vec3(1.0F, 0.0F, 0.0F), math::vec3(0.0F, 1.0F, 0.0F),
                                math::vec3(0.1F, 0.2F, 1.0F)};
-            p[which / 3][which % 3] = bad;
+            p[which / 3][static_cast<math::axis_t>(which % 3)] = bad;
             CHECK(orient3d(p[0], p[1], p[2], p[3]) == Sign::zero);
             CHECK(line_side(p[0], Target::direction(p[1]), p[2], p[3]) == Sign::zero);
             if (which % 3 < 2 && which < 9)

@@ -36,7 +36,7 @@ struct Row {
     [[nodiscard]] math::dvec3 rounded() const noexcept {
         return origin == nullptr ? math::to_double(p) : math::to_double(p) - math::to_double(*origin);
     }
-    [[nodiscard]] Expansion<2> exact(int axis) const noexcept {
+    [[nodiscard]] Expansion<2> exact(math::axis_t axis) const noexcept {
         auto const from = origin == nullptr ? 0.0 : static_cast<double>((*origin)[axis]);
         return expansion(two_diff(static_cast<double>(p[axis]), from));
     }
