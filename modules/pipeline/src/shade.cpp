@@ -110,11 +110,10 @@ float key_light(Frame const& frame, core::ExecutorRef executor) {
     return strength * static_cast<float>(key);
 }
 
-float tone_mapped(float x) noexcept {
-    // Reinhard's curve with a white point: 4 times the key light becomes white.
-    constexpr float white = 4.0F;
-    float const positive = std::fmax(x, 0.0F);
-    return std::fmin(positive * (1.0F + positive / (white * white)) / (1.0F + positive), 1.0F);
+/// source: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2016: a toe for contrast, a shoulder for highlights.
+float tone_mapped(float radiance) noexcept {
+    float const x = std::fmin(std::fmax(radiance, 0.0F), 1e4F);
+    return std::fmin(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 1.0F);
 }
 
 math::vec3 sky_at(Frame const& frame, std::size_t pixel) noexcept {
@@ -153,6 +152,14 @@ Image painted(Frame const& frame, Color&& color_of_sample, float sky_grey) {
     return image;
 }
 
+/// The sky's light on a surface: bluish from above, earthy from below, and a little stronger from the light's side, so
+/// that the walls of a house differ in its shadow too.
+math::vec3 ambient_at(ShadeConfig const& config, math::vec3 const& normal, math::vec3 const& to_light) noexcept {
+    float const upward = 0.5F + 0.5F * normal.y;
+    float const side = 1.0F + 0.3F * (normal.x * to_light.x + normal.z * to_light.z) + 0.1F * normal.x;
+    return (config.ground_color * (1.0F - upward) + config.sky_color * upward) * side;
+}
+
 }  // namespace
 
 math::vec3 toward_light(Frame const& frame, math::vec3 const& position) noexcept {
@@ -166,7 +173,7 @@ Shading shade(Frame const& frame, ShadeConfig const& config, core::ExecutorRef e
     Shading shading{std::vector<math::vec3>(n), std::vector<math::vec3>(n), config.exposure, config};
     Palette const palette(frame);
     float const key = key_light(frame, executor);
-    if (!(config.exposure > 0.0F)) shading.exposure = 1.25F / key;
+    if (!(config.exposure > 0.0F)) shading.exposure = 0.95F / key;
     math::vec3 const eye = math::to_float(frame.view.eye_m - frame.geometry->origin_m);
     bool const ortho = frame.view.lens == math::Lens::orthographic;
     math::vec3 const light = frame.light.color * frame.light.intensity;
@@ -188,8 +195,7 @@ Shading shade(Frame const& frame, ShadeConfig const& config, core::ExecutorRef e
             float const highlight = lambert > 0.0F ? config.specular * (config.shininess + 8.0F) / 8.0F * gloss : 0.0F;
             float const strength = falloff(frame.light, frame.light_position, p) * lambert;
             shading.direct[i] = light * strength * (albedo + math::vec3(highlight));
-            float const upward = 0.5F + 0.5F * normal.y;
-            math::vec3 const sky = config.ground_color * (1.0F - upward) + config.sky_color * upward;
+            math::vec3 const sky = ambient_at(config, normal, to_light);
             shading.ambient[i] = albedo * sky * (config.ambient * key) + palette.material(i).emissive * key;
         }
     });

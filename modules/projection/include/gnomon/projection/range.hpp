@@ -22,7 +22,7 @@ struct DepthRange {
     math::dvec3 const hi = math::to_double(box.hi) - p;
     math::dvec3 nearest(0.0);
     math::dvec3 farthest(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (math::axis_t axis = 0; axis < 3; ++axis) {
         nearest[axis] = std::fmax(0.0, std::fmax(lo[axis], -hi[axis]));
         farthest[axis] = std::fmax(std::abs(lo[axis]), std::abs(hi[axis]));
     }

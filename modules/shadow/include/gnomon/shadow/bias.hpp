@@ -43,6 +43,12 @@ inline constexpr float half_ulp = 5.9604645e-8F;  ///< 2^-24
     return 1.0F / 256.0F + 16.0F * half_ulp * longest;
 }
 
+/// What a surface may bend within the filter's reach before its own facets shadow each other: a facet of a dent or a
+/// groove stands before its neighbour's plane, as no facet of a bulge does. Chosen by measuring; see the README.
+inline constexpr float bend_constant_px = 0.5F;
+inline constexpr float bend_slope_px = 0.25F;
+inline constexpr float bend_max_tan = 8.0F;
+
 }  // namespace detail
 
 /// The largest distance per axis, in texels, from the receiver's image point to the centre of a texel that `taps`
@@ -75,6 +81,14 @@ inline constexpr float half_ulp = 5.9604645e-8F;  ///< 2^-24
     return rounding + place_m * at.depth_per_m + (std::abs(at.gradient.x) + std::abs(at.gradient.y)) * beside;
 }
 
+/// The automatic bias's part for surfaces that are not planes.
+///
+///     metres = texel (0.5 + 0.25 min(tan, 8))
+[[nodiscard]] inline float bend_allowance_m(Receiver const& at) noexcept {
+    return at.texel_m *
+           (detail::bend_constant_px + detail::bend_slope_px * std::fmin(at.tan_angle, detail::bend_max_tan));
+}
+
 /// Depth units for a move of `metres` toward the light, never past half the way to it.
 [[nodiscard]] inline float depth_of_move(MapView const& map, Receiver const& at, float metres) noexcept {
     if (!map.perspective) return metres * at.depth_per_m;
@@ -88,8 +102,10 @@ inline constexpr float half_ulp = 5.9604645e-8F;  ///< 2^-24
                                   BiasConfig const& config, int taps) noexcept {
     float const unit_m = config.unit == BiasUnit::texels ? at.texel_m : 1.0F;
     float const tangent = std::fmin(at.tan_angle, config.max_tan);
+    float metres = (config.constant + config.slope * tangent) * unit_m;
+    if (config.automatic) metres += bend_allowance_m(at);
     Bias bias;
-    bias.depth = depth_of_move(map, at, (config.constant + config.slope * tangent) * unit_m);
+    bias.depth = depth_of_move(map, at, metres);
     if (config.automatic) bias.depth += automatic_bias(map, at, position, taps, config.receiver_plane);
     bias.metres = bias.depth / at.depth_per_m * at.per_axis;
     return bias;
