@@ -59,7 +59,7 @@ inline City make_city(int size) {
             float const pitch_x = 1000.0F / 36.0F;
             float const pitch_z = 1000.0F / 35.0F;
             math::vec3 const middle(-500.0F + (static_cast<float>(i) + 0.5F) * pitch_x, 0, -500.0F + (static_cast<float>(j) + 0.5F) * pitch_z);
-            math::vec3 const half(6.0F + 4.0F * random(), 0, 6.0F + 4.0F * random());
+            math::vec3 const half{6.0F + 4.0F * random(), 0.0F, 6.0F + 4.0F * random()};
             city.add_box(middle - half, middle + half + math::vec3(0, 8.0F + 70.0F * random(), 0), n, m);
         }
     return city;

@@ -17,21 +17,40 @@ struct Mode {
     static constexpr bool ids = Ids;
 };
 
-/// Compares and writes eight samples; a sample is covered where the sign of `outside` is clear.
-///
-/// returns: a bit for each sample written.
+/// As a target holds it: clamped, and a code for a 16-bit one. Monotone, so it keeps bounds.
 template <class M>
-GNOMON_AVX2_INLINE std::uint32_t write_x8(__m256 z, __m256i outside, float* depth, std::uint32_t* id, __m256i record_id) {
+GNOMON_AVX2_INLINE __m256 stored_depth(__m256 z) {
     z = _mm256_min_ps(_mm256_max_ps(z, _mm256_setzero_ps()), all_of(1.0F));
     if constexpr (M::quantize) {
         __m256 const magic = all_of(8388608.0F);
         z = _mm256_sub_ps(_mm256_add_ps(_mm256_mul_ps(z, all_of(65535.0F)), magic), magic);
     }
-    __m256 const held = _mm256_loadu_ps(depth);
-    __m256 const nearer = M::reversed ? _mm256_cmp_ps(z, held, _CMP_GT_OQ) : _mm256_cmp_ps(z, held, _CMP_LT_OQ);
-    __m256 const write = _mm256_andnot_ps(as_float(outside), nearer);
+    return z;
+}
+
+template <class M>
+GNOMON_AVX2_INLINE __m256 is_nearer(__m256 z, __m256 held) {
+    return M::reversed ? _mm256_cmp_ps(z, held, _CMP_GT_OQ) : _mm256_cmp_ps(z, held, _CMP_LT_OQ);
+}
+
+template <class M>
+GNOMON_AVX2_INLINE __m256 farther_of(__m256 a, __m256 b) {
+    return M::reversed ? _mm256_min_ps(a, b) : _mm256_max_ps(a, b);
+}
+
+/// Compares and writes eight samples; a sample is covered where the sign of `outside` is clear. `held` gets what the
+/// image holds then.
+///
+/// returns: a bit for each sample written.
+template <class M>
+GNOMON_AVX2_INLINE std::uint32_t write_x8(__m256 z, __m256i outside, float* depth, std::uint32_t* id, __m256i record_id,
+                                          __m256& held) {
+    z = stored_depth<M>(z);
+    held = _mm256_loadu_ps(depth);
+    __m256 const write = _mm256_andnot_ps(as_float(outside), is_nearer<M>(z, held));
     auto const bits = static_cast<std::uint32_t>(_mm256_movemask_ps(write));
-    _mm256_storeu_ps(depth, _mm256_blendv_ps(held, z, write));
+    held = _mm256_blendv_ps(held, z, write);
+    _mm256_storeu_ps(depth, held);
     if constexpr (M::ids) {
         __m256i* const at = reinterpret_cast<__m256i*>(id);
         _mm256_storeu_si256(at, select(_mm256_loadu_si256(at), record_id, as_int(write)));
@@ -65,7 +84,8 @@ GNOMON_AVX2_INLINE std::uint64_t draw_narrow(TileJob const& job, Record const& r
     std::uint64_t written = 0;
     for (std::int32_t y = range.y0; y < range.y1; ++y, at += tile_pitch) {
         __m256i const outside = _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
-        std::uint32_t const bits = write_x8<M>(plane.at(e[2], e[0]), outside, job.depth + at, M::ids ? job.id + at : nullptr, id);
+        __m256 held;
+        std::uint32_t const bits = write_x8<M>(plane.at(e[2], e[0]), outside, job.depth + at, M::ids ? job.id + at : nullptr, id, held);
         written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
         for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], step[i]);
     }
@@ -77,88 +97,156 @@ struct TileEdge {
     std::int32_t value, step_x, step_y;
 };
 
-/// Depth of a large triangle over a tile: exact integers in double.
-struct LargeDepth {
-    DepthGradient g;
-    double e20, e01, x20, x01, y20, y01;  // At the tile's first pixel, and per column and row.
+/// The greatest and the least value of an edge function over each of the eight blocks of a row of blocks.
+struct BlockValues {
+    __m256i highest, lowest;
+};
 
-    GNOMON_AVX2_INLINE __m128 four(double a, double b, double first) const {
-        __m256d const column = _mm256_add_pd(_mm256_set1_pd(first), _mm256_setr_pd(0.0, 1.0, 2.0, 3.0));
-        __m256d const w20 = _mm256_add_pd(_mm256_set1_pd(a), _mm256_mul_pd(column, _mm256_set1_pd(x20)));
-        __m256d const w01 = _mm256_add_pd(_mm256_set1_pd(b), _mm256_mul_pd(column, _mm256_set1_pd(x01)));
-        __m256d const sum = _mm256_add_pd(_mm256_mul_pd(w20, _mm256_set1_pd(g.g1)), _mm256_mul_pd(w01, _mm256_set1_pd(g.g2)));
-        return _mm256_cvtpd_ps(_mm256_add_pd(_mm256_set1_pd(g.z0), sum));
-    }
-    GNOMON_AVX2_INLINE __m256 at(std::int32_t x, std::int32_t y) const {
-        double const a = e20 + y20 * y;
-        double const b = e01 + y01 * y;
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(four(a, b, x)), four(a, b, x + 4), 1);
+GNOMON_AVX2_INLINE BlockValues values_in_blocks(TileEdge const& e, std::int32_t row) {
+    // Both are at corners: 7 steps along where the step is positive, or negative.
+    std::int32_t const up = (e.step_x > 0 ? 7 * e.step_x : 0) + (e.step_y > 0 ? 7 * e.step_y : 0);
+    std::int32_t const down = (e.step_x < 0 ? 7 * e.step_x : 0) + (e.step_y < 0 ? 7 * e.step_y : 0);
+    __m256i const at = _mm256_add_epi32(all_of(e.value + row * e.step_y), _mm256_mullo_epi32(iota(), all_of(8 * e.step_x)));
+    return {_mm256_add_epi32(at, all_of(up)), _mm256_add_epi32(at, all_of(down))};
+}
+
+/// Depth of a regular triangle, for whole blocks and for their samples.
+struct RegularBlocks {
+    RegularDepth plane;
+
+    GNOMON_AVX2_INLINE __m256 at(__m256i const (&e)[3], std::int32_t, std::int32_t) const { return plane.at(e[2], e[0]); }
+
+    /// No covered sample of a block is nearer. The formula grows with both edge functions, and so does its rounding: the
+    /// bound is exact without any slack. A covered sample's edge functions are not negative.
+    template <class M>
+    GNOMON_AVX2_INLINE __m256 nearest(BlockValues const (&e)[3], std::int32_t) const {
+        __m256i const zero = _mm256_setzero_si256();
+        return M::reversed ? plane.at(e[2].highest, e[0].highest)
+                           : plane.at(_mm256_max_epi32(e[2].lowest, zero), _mm256_max_epi32(e[0].lowest, zero));
     }
 };
 
-/// Blocks of one row of blocks: a bit for each that has a covered sample (`touched`, conservative) and that has no
-/// uncovered one (`full`, exact).
+/// The same for a large one: exact integers in double.
+struct LargeBlocks {
+    DepthGradient g;
+    double e20, e01, x20, x01, y20, y01;  // At the tile's first pixel, and per column and row.
+
+    GNOMON_AVX2_INLINE __m128 depth(__m256d w20, __m256d w01) const {
+        __m256d const sum = _mm256_add_pd(_mm256_mul_pd(w20, _mm256_set1_pd(g.g1)), _mm256_mul_pd(w01, _mm256_set1_pd(g.g2)));
+        return _mm256_cvtpd_ps(_mm256_add_pd(_mm256_set1_pd(g.z0), sum));
+    }
+    /// `start` + `step` * i for four columns or blocks from `first`.
+    GNOMON_AVX2_INLINE static __m256d four(double start, double step, double first) {
+        __m256d const i = _mm256_add_pd(_mm256_set1_pd(first), _mm256_setr_pd(0.0, 1.0, 2.0, 3.0));
+        return _mm256_add_pd(_mm256_set1_pd(start), _mm256_mul_pd(i, _mm256_set1_pd(step)));
+    }
+    GNOMON_AVX2_INLINE static __m256 eight(__m128 low, __m128 high) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+    }
+
+    GNOMON_AVX2_INLINE __m256 at(__m256i const (&)[3], std::int32_t x, std::int32_t y) const {
+        double const a = e20 + y20 * y;
+        double const b = e01 + y01 * y;
+        return eight(depth(four(a, x20, x), four(b, x01, x)), depth(four(a, x20, x + 4), four(b, x01, x + 4)));
+    }
+
+    template <class M>
+    GNOMON_AVX2_INLINE __m256 nearest(BlockValues const (&)[3], std::int32_t row) const {
+        auto const extreme = [](double step) { return (step > 0.0) == M::reversed ? 7.0 * step : 0.0; };
+        double const a = e20 + y20 * row + extreme(x20) + extreme(y20);
+        double const b = e01 + y01 * row + extreme(x01) + extreme(y01);
+        __m256d w20[2] = {four(a, 8.0 * x20, 0.0), four(a, 8.0 * x20, 4.0)};
+        __m256d w01[2] = {four(b, 8.0 * x01, 0.0), four(b, 8.0 * x01, 4.0)};
+        for (int i = 0; i < 2; ++i) {
+            w20[i] = _mm256_max_pd(w20[i], _mm256_setzero_pd());
+            w01[i] = _mm256_max_pd(w01[i], _mm256_setzero_pd());
+        }
+        return eight(depth(w20[0], w01[0]), depth(w20[1], w01[1]));
+    }
+};
+
+/// Blocks of one row of blocks: a bit for each that may have a sample to write, and that is covered wholly (exact).
 struct BlockRow {
     std::uint32_t touched, full;
 };
 
-GNOMON_AVX2_INLINE BlockRow classify(TileEdge const (&edge)[3], std::int32_t row) {
-    __m256i highest = _mm256_setzero_si256();
-    __m256i lowest = highest;
-    for (TileEdge const& e : edge) {
-        // The greatest and least value over a block are at corners: 7 steps along where the step is positive.
-        std::int32_t const up = (e.step_x > 0 ? 7 * e.step_x : 0) + (e.step_y > 0 ? 7 * e.step_y : 0);
-        std::int32_t const down = (e.step_x < 0 ? 7 * e.step_x : 0) + (e.step_y < 0 ? 7 * e.step_y : 0);
-        __m256i const at = _mm256_add_epi32(all_of(e.value + row * e.step_y), _mm256_mullo_epi32(iota(), all_of(8 * e.step_x)));
-        highest = _mm256_or_si256(highest, _mm256_add_epi32(at, all_of(up)));
-        lowest = _mm256_or_si256(lowest, _mm256_add_epi32(at, all_of(down)));
+template <class M, class Depth>
+GNOMON_AVX2_INLINE BlockRow classify(TileJob const& job, TileEdge const (&edge)[3], std::int32_t row, Depth const& depth) {
+    BlockValues const e[3] = {values_in_blocks(edge[0], row), values_in_blocks(edge[1], row), values_in_blocks(edge[2], row)};
+    __m256i const outside = _mm256_or_si256(_mm256_or_si256(e[0].highest, e[1].highest), e[2].highest);
+    __m256i const cut = _mm256_or_si256(_mm256_or_si256(e[0].lowest, e[1].lowest), e[2].lowest);
+    __m256 const nearest = stored_depth<M>(depth.template nearest<M>(e, row));
+    __m256 const visible = is_nearer<M>(nearest, _mm256_loadu_ps(job.farthest + row));
+    auto const seen = static_cast<std::uint32_t>(_mm256_movemask_ps(visible));
+    return {~sign_bits(outside) & seen, ~sign_bits(cut) & 0xFFU};
+}
+
+template <class M>
+GNOMON_AVX2_INLINE float farthest_of(__m256 v) {
+    __m256 const pairs = farther_of<M>(v, _mm256_permute2f128_ps(v, v, 1));
+    __m256 const quads = farther_of<M>(pairs, _mm256_permute_ps(pairs, 0x4E));
+    return _mm256_cvtss_f32(farther_of<M>(quads, _mm256_permute_ps(quads, 0xB1)));
+}
+
+/// What all blocks of a record share.
+struct BlockJob {
+    TileEdge edge[3];
+    __m256i lane[3];  // Steps of the eight columns.
+    __m256i id;
+};
+
+/// Rows [first, last) of the block whose first column is `x`, and the block's farthest depth when all eight are drawn.
+template <class M, bool Full, class Depth>
+GNOMON_AVX2_INLINE std::uint32_t draw_block(TileJob const& job, BlockJob const& b, PixelRange const& range, std::int32_t x,
+                                            Depth const& depth) {
+    std::uint32_t const columns = range.x1 - x >= 8 ? 0xFFU : (1U << (range.x1 - x)) - 1U;  // Others are not counted.
+    __m256i e[3];
+    __m256i step[3];
+    for (int i = 0; i < 3; ++i) {
+        TileEdge const& edge = b.edge[i];
+        e[i] = _mm256_add_epi32(all_of(edge.value + x * edge.step_x + range.y0 * edge.step_y), b.lane[i]);
+        step[i] = all_of(edge.step_y);
     }
-    return {~sign_bits(highest) & 0xFFU, ~sign_bits(lowest) & 0xFFU};
+    std::ptrdiff_t at = std::ptrdiff_t{range.y0} * tile_pitch + x;
+    __m256 farthest = all_of(M::reversed ? 65536.0F : -1.0F);
+    std::uint32_t written = 0;
+    for (std::int32_t y = range.y0; y < range.y1; ++y, at += tile_pitch) {
+        __m256i const outside = Full ? _mm256_setzero_si256() : _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
+        __m256 held;
+        std::uint32_t const bits = write_x8<M>(depth.at(e, x, y), outside, job.depth + at, M::ids ? job.id + at : nullptr, b.id, held);
+        farthest = farther_of<M>(farthest, held);
+        written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
+        for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], step[i]);
+    }
+    if (range.y1 - range.y0 == 8) job.farthest[range.y0 + (x >> 3)] = farthest_of<M>(farthest);
+    return written;
 }
 
 /// `range` counted from the tile's first pixel.
 template <class M, class Depth>
 GNOMON_AVX2_INLINE std::uint64_t draw_blocks(TileJob const& job, TileEdge const (&edge)[3], PixelRange const& range,
                                              std::uint32_t record_id, Depth const& depth) {
-    __m256i lane[3];
-    for (int i = 0; i < 3; ++i) lane[i] = _mm256_mullo_epi32(iota(), all_of(edge[i].step_x));
-    __m256i const id = all_of(static_cast<std::int32_t>(record_id));
+    BlockJob b;
+    for (int i = 0; i < 3; ++i) {
+        b.edge[i] = edge[i];
+        b.lane[i] = _mm256_mullo_epi32(iota(), all_of(edge[i].step_x));
+    }
+    b.id = all_of(static_cast<std::int32_t>(record_id));
     std::uint32_t const wanted = (0xFFU << (range.x0 >> 3)) & (0xFFU >> (7 - ((range.x1 - 1) >> 3)));
     std::uint64_t written = 0;
     for (std::int32_t row = range.y0 & ~7; row < range.y1; row += 8) {
-        BlockRow const blocks = classify(edge, row);
-        std::int32_t const first = row > range.y0 ? row : range.y0;
-        std::int32_t const last = row + 8 < range.y1 ? row + 8 : range.y1;
+        BlockRow const blocks = classify<M>(job, edge, row, depth);
+        PixelRange rows = range;
+        rows.y0 = row > range.y0 ? row : range.y0;
+        rows.y1 = row + 8 < range.y1 ? row + 8 : range.y1;
         for (std::uint32_t left = blocks.touched & wanted; left != 0; left &= left - 1) {
             int const block = __builtin_ctz(left);
-            std::int32_t const x = block * 8;
-            // Columns beyond the range are drawn into the tile's margin and not counted.
-            std::uint32_t const columns = range.x1 - x >= 8 ? 0xFFU : (1U << (range.x1 - x)) - 1U;
-            bool const full = ((blocks.full >> block) & 1U) != 0;
-            __m256i e[3];
-            for (int i = 0; i < 3; ++i)
-                e[i] = _mm256_add_epi32(all_of(edge[i].value + x * edge[i].step_x + first * edge[i].step_y), lane[i]);
-            std::ptrdiff_t at = std::ptrdiff_t{first} * tile_pitch + x;
-            for (std::int32_t y = first; y < last; ++y, at += tile_pitch) {
-                __m256i const outside = full ? _mm256_setzero_si256() : _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
-                std::uint32_t const bits = write_x8<M>(depth.at(e, x, y), outside, job.depth + at, M::ids ? job.id + at : nullptr, id);
-                written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
-                for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], all_of(edge[i].step_y));
-            }
+            written += ((blocks.full >> block) & 1U) != 0 ? draw_block<M, true>(job, b, rows, block * 8, depth)
+                                                          : draw_block<M, false>(job, b, rows, block * 8, depth);
         }
     }
     return written;
 }
-
-struct RegularBlocks {
-    RegularDepth plane;
-    GNOMON_AVX2_INLINE __m256 at(__m256i const (&e)[3], std::int32_t, std::int32_t) const { return plane.at(e[2], e[0]); }
-};
-
-struct LargeBlocks {
-    LargeDepth plane;
-    GNOMON_AVX2_INLINE __m256 at(__m256i const (&)[3], std::int32_t x, std::int32_t y) const { return plane.at(x, y); }
-};
 
 GNOMON_AVX2_INLINE PixelRange from_tile(TileJob const& job, PixelRange const& range) {
     return {range.x0 - job.x0, range.y0 - job.y0, range.x1 - job.x0, range.y1 - job.y0};
@@ -195,14 +283,14 @@ GNOMON_AVX2 std::uint64_t draw_large_x8(TileJob const& job, Record const& r, Pix
         e[i] = shifted_edge(t, i, job.x0, job.y0);
         if (!narrow_edge(e[i], edge[i])) return 0;
     }
-    LargeDepth const depth{depth_gradient(t, e[2].fraction, e[0].fraction),
-                           static_cast<double>(e[2].value),
-                           static_cast<double>(e[0].value),
-                           static_cast<double>(e[2].step_x),
-                           static_cast<double>(e[0].step_x),
-                           static_cast<double>(e[2].step_y),
-                           static_cast<double>(e[0].step_y)};
-    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, LargeBlocks{depth});
+    LargeBlocks const depth{depth_gradient(t, e[2].fraction, e[0].fraction),
+                            static_cast<double>(e[2].value),
+                            static_cast<double>(e[0].value),
+                            static_cast<double>(e[2].step_x),
+                            static_cast<double>(e[0].step_x),
+                            static_cast<double>(e[2].step_y),
+                            static_cast<double>(e[0].step_y)};
+    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, depth);
 }
 
 template <class M>

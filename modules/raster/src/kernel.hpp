@@ -9,6 +9,7 @@ namespace gnomon::raster::detail {
 
 inline constexpr std::int32_t tile_shift = 6;
 inline constexpr std::int32_t tile_size = 1 << tile_shift;
+inline constexpr std::int32_t blocks_per_tile = (tile_size / 8) * (tile_size / 8);
 inline constexpr std::int32_t tile_pitch = tile_size + 8;  // A vector may start at the tile's last column.
 
 inline constexpr std::int32_t fraction_bits = 8;
@@ -50,6 +51,7 @@ struct TileJob {
     std::int32_t x0, y0, x1, y1;  // Pixels of the target, end exclusive.
     float* depth;                 // Depths, or codes as floats for a 16-bit target.
     std::uint32_t* id;            // Null in a depth pass.
+    float* farthest;              // Per block of 8x8 samples, 8 a row: no sample of the block is farther.
     bool reversed;
     bool quantize;
     void const* masked_context;

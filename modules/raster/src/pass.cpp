@@ -281,12 +281,14 @@ private:
     [[nodiscard]] std::uint64_t draw_tile(std::int32_t tile_x, std::int32_t tile_y, Load load) const {
         alignas(64) float depth[detail::tile_size * detail::tile_pitch];
         alignas(64) std::uint32_t id[detail::tile_size * detail::tile_pitch];
+        alignas(64) float farthest[detail::blocks_per_tile];
         detail::TileJob job{.x0 = std::max(x0_, tile_x << detail::tile_shift),
                             .y0 = std::max(y0_, tile_y << detail::tile_shift),
                             .x1 = std::min(x1_, (tile_x + 1) << detail::tile_shift),
                             .y1 = std::min(y1_, (tile_y + 1) << detail::tile_shift),
                             .depth = depth,
                             .id = triangle_ != nullptr ? id : nullptr,
+                            .farthest = farthest,
                             .reversed = config_.depth == math::Depth::reversed,
                             .quantize = depth_.is_unorm16(),
                             .masked_context = state_.masked.data(),
@@ -309,6 +311,7 @@ private:
 
     void load_tile(detail::TileJob const& job, Load load) const {
         float const farthest = job.reversed ? 0.0F : job.quantize ? 65535.0F : 1.0F;
+        std::fill_n(job.farthest, detail::blocks_per_tile, farthest);
         for (std::int32_t y = job.y0; y < job.y1; ++y) {
             std::ptrdiff_t const row = std::ptrdiff_t{y - job.y0} * detail::tile_pitch;
             std::int32_t const width = job.x1 - job.x0;

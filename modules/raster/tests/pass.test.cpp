@@ -142,13 +142,14 @@ struct Mixed {
     Indices indices;
 
     explicit Mixed(std::uint64_t seed, int count) {
+        // Braces, not parentheses: the order of evaluation is part of the scene.
         Random random{seed};
         for (int i = 0; i < count; ++i) {
             float const reach = i % 50 == 0 ? 40.0F : i % 7 == 0 ? 1.0F : 0.05F;
-            math::vec3 const at(random.unit() * 6.0F - 3.0F, random.unit() * 6.0F - 3.0F, -random.unit() * 4.0F);
+            math::vec3 const at{random.unit() * 6.0F - 3.0F, random.unit() * 6.0F - 3.0F, -random.unit() * 4.0F};
             auto const start = static_cast<std::uint32_t>(positions.size());
             for (int c = 0; c < 3; ++c)
-                positions.push_back(at + math::vec3(random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F) * reach);
+                positions.push_back(at + math::vec3{random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F} * reach);
             for (std::uint32_t c = 0; c < 3; ++c) indices.push_back(start + c);
             if (i % 9 == 0) indices.insert(indices.end(), {start, start + 2, start + 1});  // the same depths again
         }
@@ -225,8 +226,8 @@ TEST_CASE("the image is the same for 1, 2 and 7 threads, scalar or simd, and any
 TEST_CASE("a scene's image has the hash it always had", "[raster][golden]") {
     Mixed const scene(22, 5000);
     Canvas canvas(512, 512);
-    CHECK(canvas.draw(scene.draws()).hash() == 11567396297237943118ULL);
-    CHECK(canvas.draw(scene.draws(), {.depth = math::Depth::forward, .range = DepthRange::clamp}).hash() == 5390728280445438666ULL);
+    CHECK(canvas.draw(scene.draws()).hash() == 3055176256846827067ULL);
+    CHECK(canvas.draw(scene.draws(), {.depth = math::Depth::forward, .range = DepthRange::clamp}).hash() == 11782682630001563417ULL);
 }
 
 TEST_CASE("a pass equals a brute-force search for the nearest triangle at each pixel", "[raster]") {
