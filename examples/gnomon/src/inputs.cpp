@@ -70,6 +70,15 @@ std::vector<std::string> names_of(auto const& things) {
     return names;
 }
 
+/// No camera or light of this name: because the file's was left out, or because there never was one.
+core::Failure<Exit> not_found(std::string const& option, std::string const& wanted, auto const& things, scene::Notes const& notes) {
+    for (std::string const& warning : notes.warnings)
+        if (warning.find('\'' + wanted + '\'') != std::string::npos)
+            return failure(fmt::format("{} {}: {}; mend the file or choose another", option, wanted,
+                                       warning.substr(0, warning.find_last_not_of('.') + 1)));
+    return usage_error(fmt::format("{} {}: the scene has none of this name; {}", option, wanted, suggestion(wanted, names_of(things))));
+}
+
 /// Where the thing of this name stands, or of this number counted from 1; a name goes first.
 std::optional<std::size_t> find_by_name(auto const& things, std::string const& wanted) {
     for (std::size_t i = 0; i < things.size(); ++i)
@@ -150,8 +159,7 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
     std::vector<scene::Camera> const& cameras = loaded.scene.cameras;
     if (options.camera) {
         if (auto const found = find_by_name(cameras, *options.camera)) return view_of_camera(cameras, *found, options);
-        return usage_error(fmt::format("--camera {}: the scene has no such camera; {}", *options.camera,
-                                       suggestion(*options.camera, names_of(cameras))));
+        return not_found("--camera", *options.camera, cameras, loaded.scene.notes);
     }
     math::PerspectiveConfig config;
     config.size_px = options.size_px;
@@ -187,8 +195,7 @@ Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene
     if (options.name) {
         if (auto const found = find_by_name(lights, *options.name))
             return Described<scene::Light>{lights[*found], "--light " + name_of(lights, *found)};
-        return usage_error(fmt::format("--light {}: the scene has no such light; {}", *options.name,
-                                       suggestion(*options.name, names_of(lights))));
+        return not_found("--light", *options.name, lights, scene.notes);
     }
     if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + name_of(lights, 0)};
     light = scene::default_sun();

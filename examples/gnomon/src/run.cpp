@@ -77,6 +77,7 @@ std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipe
         {"samples", fmt::format("{} of {} pixels show a surface; {:.1f} % of them are truly lit", grouped(report.samples),
                                 grouped(pipeline::pixel_count(report.size_px)), lit * 100.0)}};
     if (std::string const missing = left_out(inputs, frame); !missing.empty()) facts.push_back({"left out", missing});
+    for (std::string const& warning : scene.notes.warnings) facts.push_back({"note", warning});
     std::string truth;
     for (pipeline::StageTime const& stage : frame.stages)
         truth += fmt::format("{}{} {} ms", truth.empty() ? "" : ", ", stage.name, figures(stage.ms));

@@ -54,8 +54,8 @@ TEST_CASE("bad flags and values are usage errors", "[command][bad-input]") {
         {2, "near must be less", {"render", "table.glb", "--near", "5", "--far", "5"}},
         {2, "0,0,0", {"compare", "table.glb", "--sun", "0,0,0"}},
         {2, "one light", {"compare", "table.glb", "--sun", "0,-1,0", "--point", "0,1,0"}},
-        {2, "no such camera", {"render", "table.glb", "--camera", "back"}},
-        {2, "no such light", {"render", "table.glb", "--light", "sun"}},
+        {2, "none of this name", {"render", "table.glb", "--camera", "back"}},
+        {2, "none of this name", {"render", "table.glb", "--light", "sun"}},
         {2, "shadow-mapp", {"render", "table.glb", "--techniques", "shadow-mapp"}},
         {2, "resolutoin", {"render", "table.glb", "--param", "shadow-map.resolutoin=8"}},
         {2, "many", {"render", "table.glb", "--param", "shadow-map.resolution=many"}},
@@ -66,7 +66,7 @@ TEST_CASE("bad flags and values are usage errors", "[command][bad-input]") {
         {2, "given twice", {"render", "table.glb", "--param", "shadow-map.pcf=1", "--param", "shadow-map.pcf=2"}},
         {2, "vulkan", {"render", "table.glb", "--backend", "vulkan"}},
         {2, "--triangles", {"render", "table.glb", "--triangles", "100"}},
-        {2, "--blocks", {"render", "cubes", "--blocks", "2"}},
+        {2, "2 blocks", {"render", "cubes", "--blocks", "2"}},
         {2, ".glb or .gltf", {"scenes", "cubes", "--write", "cubes.obj"}},
     };
     for (BadCase const& bad : cases) check_refused(folder, bad);

@@ -1,6 +1,7 @@
 #pragma once
 // Runs the real command and keeps what it says. Each test has a folder of its own that is gone afterwards.
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -60,6 +61,12 @@ struct Ended {
     std::string err;
 };
 
+/// In the child: by descriptor, as closing a stream would write out what the parent had in its buffer.
+inline bool redirected(int descriptor, std::string const& path) {
+    int const file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    return file >= 0 && dup2(file, descriptor) == descriptor;
+}
+
 /// Starts the command in `folder`, as a shell would, with its output in files outside of it.
 inline Ended gnomon_in(fs::path const& folder, std::vector<std::string> arguments) {
     TestFolder const logs;
@@ -71,8 +78,7 @@ inline Ended gnomon_in(fs::path const& folder, std::vector<std::string> argument
     argv.push_back(nullptr);
     pid_t const child = fork();
     if (child == 0) {
-        bool const ready = chdir(folder.c_str()) == 0 && std::freopen(out.c_str(), "w", stdout) != nullptr &&
-                           std::freopen(err.c_str(), "w", stderr) != nullptr;
+        bool const ready = chdir(folder.c_str()) == 0 && redirected(1, out) && redirected(2, err);
         if (ready) execv(argv[0], argv.data());
         _exit(127);
     }
