@@ -70,15 +70,18 @@ inline void consider_edge(math::dvec3 const& p, math::dvec3 const& q, SampleRay 
 /// returns: the first corner for a triangle wholly behind a one-sided ray's start.
 [[nodiscard]] inline math::dvec3 nearest_point(Corners const& t, SampleRay const& ray) noexcept {
     math::dvec3 const p[3] = {math::to_double(t[0]), math::to_double(t[1]), math::to_double(t[2])};
-    math::dvec3 const a = p[0] - ray.start;
-    math::dvec3 const b = p[1] - ray.start;
-    math::dvec3 const c = p[2] - ray.start;
-    math::dvec3 const w(glm::dot(ray.step, glm::cross(b, c)), glm::dot(ray.step, glm::cross(c, a)),
-                        glm::dot(ray.step, glm::cross(a, b)));
-    double const total = w.x + w.y + w.z;
-    bool const inside = (w.x >= 0.0 && w.y >= 0.0 && w.z >= 0.0) || (w.x <= 0.0 && w.y <= 0.0 && w.z <= 0.0);
-    if (inside && total != 0.0) {
-        math::dvec3 const point = p[0] * (w.x / total) + p[1] * (w.y / total) + p[2] * (w.z / total);
+    // [Moeller, Trumbore 1997], from the ray's point nearest to the first corner: from a far start the products would be
+    // large and the triangle's share of them rounding noise.
+    math::dvec3 const ab = p[1] - p[0];
+    math::dvec3 const ac = p[2] - p[0];
+    math::dvec3 const away = ray.start - p[0];
+    math::dvec3 const from = away - ray.step * (glm::dot(away, ray.step) / glm::dot(ray.step, ray.step));
+    math::dvec3 const step_x_ac = glm::cross(ray.step, ac);
+    double const det = glm::dot(ab, step_x_ac);
+    double const b = glm::dot(from, step_x_ac) / det;
+    double const c = glm::dot(ray.step, glm::cross(from, ab)) / det;
+    if (b >= 0.0 && c >= 0.0 && b + c <= 1.0) {
+        math::dvec3 const point = p[0] + ab * b + ac * c;
         if (!ray.one_sided || glm::dot(ray.step, point - ray.start) >= 0.0) return limited(point, t);
     }
     Nearest best{p[0]};
