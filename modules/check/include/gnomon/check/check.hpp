@@ -476,7 +476,8 @@ private:
         std::uint64_t const offset = (bits >> 8) % 2;
         if ((bits & 3) == 0) return encode(static_cast<T>(wide(lo) + (offset < width() ? offset : 0)));
         if ((bits & 3) == 1) return encode(static_cast<T>(wide(hi) - (offset < width() ? offset : 0)));
-        std::uint64_t const power = (std::uint64_t{1} << ((bits >> 16) & 63)) + (bits >> 24) % 3 - 1;
+        std::uint64_t const digits = static_cast<std::uint64_t>(std::bit_width(width() | 1));
+        std::uint64_t const power = (std::uint64_t{1} << (bits >> 16) % digits) + (bits >> 24) % 3 - 1;
         std::uint64_t const value = (bits & 4) != 0 ? power : 0 - power;
         std::uint64_t const choice = value - wide(lo) <= width() ? encode(static_cast<T>(value)) : width();
         return choice <= width() ? choice : width();
@@ -2185,7 +2186,7 @@ void put_shortest(Text& out, T value, int most_digits, Parse parse) {
 }
 void put_float(Text& out, float value) {
     put_shortest(out, value, 9, [](char const* s) { return std::strtof(s, nullptr); });
-    out.append('f');
+    if (value - value == 0) out.append('f');
 }
 void put_double(Text& out, double value) {
     put_shortest(out, value, 17, [](char const* s) { return std::strtod(s, nullptr); });
