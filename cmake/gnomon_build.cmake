@@ -25,6 +25,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   list(APPEND GNOMON_OWN_FLAGS -Wno-restrict) # false for "text" + std::string: GCC bug 105651
 endif()
 
+if(CMAKE_CXX_FLAGS MATCHES "GLM_FORCE_SIZE_T_LENGTH")
+  list(APPEND GNOMON_OWN_FLAGS -Wno-sign-conversion)
+endif()
+
 set(GNOMON_INSTRUMENT_FLAGS "")
 if(GNOMON_SANITIZE)
   string(REPLACE ";" "," _sanitizers "${GNOMON_SANITIZE}")
