@@ -9,18 +9,21 @@ namespace gnomon::raster::detail {
 
 namespace {
 
-/// What a kernel is compiled for.
-template <bool Reversed, bool Quantize, bool Ids>
+/// What a kernel is compiled for. `Clamp`: depths may be below 0 or beyond 1 (`DepthRange::clamp`).
+template <bool Reversed, bool Quantize, bool Ids, bool Clamp>
 struct Mode {
     static constexpr bool reversed = Reversed;
     static constexpr bool quantize = Quantize;
     static constexpr bool ids = Ids;
+    static constexpr bool clamp = Clamp;
 };
 
 /// As a target holds it: clamped, and a code for a 16-bit one. Monotone, so it keeps bounds.
 template <class M>
 GNOMON_AVX2_INLINE __m256 stored_depth(__m256 z) {
-    z = _mm256_min_ps(_mm256_max_ps(z, _mm256_setzero_ps()), all_of(1.0F));
+    // Without `clamp` no depth is below 0, and one that rounding took beyond 1 fails against any forward target as 1 does.
+    if constexpr (M::clamp) z = _mm256_max_ps(z, _mm256_setzero_ps());
+    if constexpr (M::clamp || M::reversed) z = _mm256_min_ps(z, all_of(1.0F));
     if constexpr (M::quantize) {
         __m256 const magic = all_of(8388608.0F);
         z = _mm256_sub_ps(_mm256_add_ps(_mm256_mul_ps(z, all_of(65535.0F)), magic), magic);
@@ -38,25 +41,44 @@ GNOMON_AVX2_INLINE __m256 farther_of(__m256 a, __m256 b) {
     return M::reversed ? _mm256_min_ps(a, b) : _mm256_max_ps(a, b);
 }
 
-/// Compares and writes eight samples; a sample is covered where the sign of `outside` is clear. `held` gets what the
-/// image holds then.
-///
-/// returns: a bit for each sample written.
+/// The rows that a record is drawn to, and how many samples were written, by column.
 template <class M>
-GNOMON_AVX2_INLINE std::uint32_t write_x8(__m256 z, __m256i outside, float* depth, std::uint32_t* id, __m256i record_id,
-                                          __m256& held) {
-    z = stored_depth<M>(z);
-    held = _mm256_loadu_ps(depth);
-    __m256 const write = _mm256_andnot_ps(as_float(outside), is_nearer<M>(z, held));
-    auto const bits = static_cast<std::uint32_t>(_mm256_movemask_ps(write));
-    held = _mm256_blendv_ps(held, z, write);
-    _mm256_storeu_ps(depth, held);
-    if constexpr (M::ids) {
-        __m256i* const at = reinterpret_cast<__m256i*>(id);
-        _mm256_storeu_si256(at, select(_mm256_loadu_si256(at), record_id, as_int(write)));
+struct Writer {
+    float* depth;
+    std::uint32_t* id;
+    __m256i record_id;
+    __m256i written;
+
+    /// Compares and writes eight samples; a sample is covered where the sign of `outside` is clear. Columns out of
+    /// `counted` lie beyond the tile: they are drawn into its margin and not counted.
+    ///
+    /// returns: what the image holds then.
+    GNOMON_AVX2_INLINE __m256 write(__m256 z, __m256i outside, __m256i counted) {
+        z = stored_depth<M>(z);
+        __m256 const held = _mm256_loadu_ps(depth);
+        __m256 const nearer = _mm256_andnot_ps(as_float(outside), is_nearer<M>(z, held));
+        __m256i const mask = _mm256_srai_epi32(as_int(nearer), 31);
+        written = _mm256_sub_epi32(written, _mm256_and_si256(mask, counted));
+        __m256 const now = _mm256_blendv_ps(held, z, nearer);
+        _mm256_storeu_ps(depth, now);
+        if constexpr (M::ids) {
+            __m256i* const at = reinterpret_cast<__m256i*>(id);
+            _mm256_storeu_si256(at, select(_mm256_loadu_si256(at), record_id, as_int(nearer)));
+        }
+        return now;
     }
-    return bits;
-}
+    GNOMON_AVX2_INLINE void to_row(TileJob const& job, std::ptrdiff_t at) {
+        depth = job.depth + at;
+        if constexpr (M::ids) id = job.id + at;
+    }
+    GNOMON_AVX2_INLINE void next_row() {
+        depth += tile_pitch;
+        if constexpr (M::ids) id += tile_pitch;
+    }
+};
+
+/// All ones in the first `n` columns.
+GNOMON_AVX2_INLINE __m256i first_columns(std::int32_t n) { return is_less(iota(), all_of(n)); }
 
 /// Edges and depth of a regular triangle, stepping through eight columns at once.
 struct RegularDepth {
@@ -67,7 +89,7 @@ struct RegularDepth {
 };
 
 template <class M>
-GNOMON_AVX2_INLINE std::uint64_t draw_narrow(TileJob const& job, Record const& r, PixelRange const& range) {
+GNOMON_AVX2_INLINE void draw_narrow(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
     std::int32_t const dx = range.x0 - r.min_x;
     std::int32_t const dy = range.y0 - r.min_y;
     __m256i e[3];
@@ -78,18 +100,12 @@ GNOMON_AVX2_INLINE std::uint64_t draw_narrow(TileJob const& job, Record const& r
         step[i] = all_of(r.step_y[i]);
     }
     RegularDepth const plane{all_of(r.z0), all_of(r.g1), all_of(r.g2)};
-    __m256i const id = all_of(static_cast<std::int32_t>(r.id));
-    std::uint32_t const columns = (1U << (range.x1 - range.x0)) - 1U;
-    std::ptrdiff_t at = std::ptrdiff_t{range.y0 - job.y0} * tile_pitch + (range.x0 - job.x0);
-    std::uint64_t written = 0;
-    for (std::int32_t y = range.y0; y < range.y1; ++y, at += tile_pitch) {
-        __m256i const outside = _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
-        __m256 held;
-        std::uint32_t const bits = write_x8<M>(plane.at(e[2], e[0]), outside, job.depth + at, M::ids ? job.id + at : nullptr, id, held);
-        written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
+    __m256i const counted = first_columns(range.x1 - range.x0);
+    writer.to_row(job, std::ptrdiff_t{range.y0 - job.y0} * tile_pitch + (range.x0 - job.x0));
+    for (std::int32_t y = range.y0; y < range.y1; ++y, writer.next_row()) {
+        writer.write(plane.at(e[2], e[0]), _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]), counted);
         for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], step[i]);
     }
-    return written;
 }
 
 /// An edge function over a tile, from the tile's first pixel. Both kinds of triangle come down to three of these.
@@ -192,14 +208,13 @@ GNOMON_AVX2_INLINE float farthest_of(__m256 v) {
 struct BlockJob {
     TileEdge edge[3];
     __m256i lane[3];  // Steps of the eight columns.
-    __m256i id;
 };
 
-/// Rows [first, last) of the block whose first column is `x`, and the block's farthest depth when all eight are drawn.
+/// Rows [y0, y1) of the block whose first column is `x`, and the block's farthest depth when all eight are drawn.
 template <class M, bool Full, class Depth>
-GNOMON_AVX2_INLINE std::uint32_t draw_block(TileJob const& job, BlockJob const& b, PixelRange const& range, std::int32_t x,
-                                            Depth const& depth) {
-    std::uint32_t const columns = range.x1 - x >= 8 ? 0xFFU : (1U << (range.x1 - x)) - 1U;  // Others are not counted.
+GNOMON_AVX2_INLINE void draw_block(TileJob const& job, BlockJob const& b, PixelRange const& range, std::int32_t x,
+                                   Depth const& depth, Writer<M>& writer) {
+    __m256i const counted = first_columns(range.x1 - x);
     __m256i e[3];
     __m256i step[3];
     for (int i = 0; i < 3; ++i) {
@@ -207,33 +222,26 @@ GNOMON_AVX2_INLINE std::uint32_t draw_block(TileJob const& job, BlockJob const& 
         e[i] = _mm256_add_epi32(all_of(edge.value + x * edge.step_x + range.y0 * edge.step_y), b.lane[i]);
         step[i] = all_of(edge.step_y);
     }
-    std::ptrdiff_t at = std::ptrdiff_t{range.y0} * tile_pitch + x;
+    writer.to_row(job, std::ptrdiff_t{range.y0} * tile_pitch + x);
     __m256 farthest = all_of(M::reversed ? 65536.0F : -1.0F);
-    std::uint32_t written = 0;
-    for (std::int32_t y = range.y0; y < range.y1; ++y, at += tile_pitch) {
+    for (std::int32_t y = range.y0; y < range.y1; ++y, writer.next_row()) {
         __m256i const outside = Full ? _mm256_setzero_si256() : _mm256_or_si256(_mm256_or_si256(e[0], e[1]), e[2]);
-        __m256 held;
-        std::uint32_t const bits = write_x8<M>(depth.at(e, x, y), outside, job.depth + at, M::ids ? job.id + at : nullptr, b.id, held);
-        farthest = farther_of<M>(farthest, held);
-        written += static_cast<std::uint32_t>(__builtin_popcount(bits & columns));
+        farthest = farther_of<M>(farthest, writer.write(depth.at(e, x, y), outside, counted));
         for (int i = 0; i < 3; ++i) e[i] = _mm256_add_epi32(e[i], step[i]);
     }
     if (range.y1 - range.y0 == 8) job.farthest[range.y0 + (x >> 3)] = farthest_of<M>(farthest);
-    return written;
 }
 
 /// `range` counted from the tile's first pixel.
 template <class M, class Depth>
-GNOMON_AVX2_INLINE std::uint64_t draw_blocks(TileJob const& job, TileEdge const (&edge)[3], PixelRange const& range,
-                                             std::uint32_t record_id, Depth const& depth) {
+GNOMON_AVX2_INLINE void draw_blocks(TileJob const& job, TileEdge const (&edge)[3], PixelRange const& range,
+                                    Depth const& depth, Writer<M>& writer) {
     BlockJob b;
     for (int i = 0; i < 3; ++i) {
         b.edge[i] = edge[i];
         b.lane[i] = _mm256_mullo_epi32(iota(), all_of(edge[i].step_x));
     }
-    b.id = all_of(static_cast<std::int32_t>(record_id));
     std::uint32_t const wanted = (0xFFU << (range.x0 >> 3)) & (0xFFU >> (7 - ((range.x1 - 1) >> 3)));
-    std::uint64_t written = 0;
     for (std::int32_t row = range.y0 & ~7; row < range.y1; row += 8) {
         BlockRow const blocks = classify<M>(job, edge, row, depth);
         PixelRange rows = range;
@@ -241,11 +249,12 @@ GNOMON_AVX2_INLINE std::uint64_t draw_blocks(TileJob const& job, TileEdge const 
         rows.y1 = row + 8 < range.y1 ? row + 8 : range.y1;
         for (std::uint32_t left = blocks.touched & wanted; left != 0; left &= left - 1) {
             int const block = __builtin_ctz(left);
-            written += ((blocks.full >> block) & 1U) != 0 ? draw_block<M, true>(job, b, rows, block * 8, depth)
-                                                          : draw_block<M, false>(job, b, rows, block * 8, depth);
+            if (((blocks.full >> block) & 1U) != 0)
+                draw_block<M, true>(job, b, rows, block * 8, depth, writer);
+            else
+                draw_block<M, false>(job, b, rows, block * 8, depth, writer);
         }
     }
-    return written;
 }
 
 GNOMON_AVX2_INLINE PixelRange from_tile(TileJob const& job, PixelRange const& range) {
@@ -253,11 +262,12 @@ GNOMON_AVX2_INLINE PixelRange from_tile(TileJob const& job, PixelRange const& ra
 }
 
 template <class M>
-GNOMON_AVX2 std::uint64_t draw_wide(TileJob const& job, Record const& r, PixelRange const& range) {
+GNOMON_AVX2 void draw_wide(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
     TileEdge edge[3];
     for (int i = 0; i < 3; ++i)
         edge[i] = {r.edge[i] + r.step_x[i] * (job.x0 - r.min_x) + r.step_y[i] * (job.y0 - r.min_y), r.step_x[i], r.step_y[i]};
-    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, RegularBlocks{{all_of(r.z0), all_of(r.g1), all_of(r.g2)}});
+    RegularBlocks const depth{{all_of(r.z0), all_of(r.g1), all_of(r.g2)}};
+    draw_blocks<M>(job, edge, from_tile(job, range), depth, writer);
 }
 
 /// The edge over the tile in 32 bits. Where it does not change sign within the tile, only the sign is kept; where it
@@ -275,13 +285,13 @@ GNOMON_AVX2_INLINE bool narrow_edge(ShiftedEdge const& e, TileEdge& out) {
 }
 
 template <class M>
-GNOMON_AVX2 std::uint64_t draw_large_x8(TileJob const& job, Record const& r, PixelRange const& range) {
+GNOMON_AVX2 void draw_large_x8(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
     Oriented const t = oriented_of_large(r);
     ShiftedEdge e[3];
     TileEdge edge[3];
     for (int i = 0; i < 3; ++i) {
         e[i] = shifted_edge(t, i, job.x0, job.y0);
-        if (!narrow_edge(e[i], edge[i])) return 0;
+        if (!narrow_edge(e[i], edge[i])) return;
     }
     LargeBlocks const depth{depth_gradient(t, e[2].fraction, e[0].fraction),
                             static_cast<double>(e[2].value),
@@ -290,35 +300,72 @@ GNOMON_AVX2 std::uint64_t draw_large_x8(TileJob const& job, Record const& r, Pix
                             static_cast<double>(e[0].step_x),
                             static_cast<double>(e[2].step_y),
                             static_cast<double>(e[0].step_y)};
-    return draw_blocks<M>(job, edge, from_tile(job, range), r.id, depth);
+    draw_blocks<M>(job, edge, from_tile(job, range), depth, writer);
 }
 
 template <class M>
 GNOMON_AVX2 std::uint64_t draw_tile_x8(TileJob const& job, Record const* records, std::uint32_t const* entries, std::size_t count) {
-    std::uint64_t written = 0;
+    std::uint64_t masked = 0;
+    Writer<M> writer{job.depth, job.id, _mm256_setzero_si256(), _mm256_setzero_si256()};
     for (std::size_t i = 0; i < count; ++i) {
+        // The records of a tile lie scattered over the chunk's.
+        if (i + 4 < count) __builtin_prefetch(records + entries[i + 4]);
         Record const& r = records[entries[i]];
         PixelRange const range = range_in_tile(job, r);
         if (range.x1 <= range.x0 || range.y1 <= range.y0) continue;
-        if (r.tag == 0)
-            written += range.x1 - range.x0 <= 8 ? draw_narrow<M>(job, r, range) : draw_wide<M>(job, r, range);
+        writer.record_id = all_of(static_cast<std::int32_t>(r.id));
+        if (r.tag == 0 && range.x1 - range.x0 <= 8)
+            draw_narrow<M>(job, r, range, writer);
+        else if (r.tag == 0)
+            draw_wide<M>(job, r, range, writer);
         else if (r.tag == 1)
-            written += draw_large_x8<M>(job, r, range);
+            draw_large_x8<M>(job, r, range, writer);
         else
-            written += job.masked(job, r);
+            masked += job.masked(job, r);
     }
-    return written;
+    alignas(32) std::uint32_t written[8];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(written), writer.written);
+    for (std::uint32_t n : written) masked += n;
+    return masked;
+}
+
+template <bool Ids, bool Quantize, bool Clamp>
+GNOMON_AVX2_INLINE std::uint64_t draw_either_way(TileJob const& job, Record const* records, std::uint32_t const* entries,
+                                                 std::size_t count) {
+    return job.reversed ? draw_tile_x8<Mode<true, Quantize, Ids, Clamp>>(job, records, entries, count)
+                        : draw_tile_x8<Mode<false, Quantize, Ids, Clamp>>(job, records, entries, count);
 }
 
 GNOMON_AVX2 std::uint64_t avx2_tile(TileJob const& job, Record const* records, std::uint32_t const* entries, std::size_t count) {
     if (job.id != nullptr)
-        return job.reversed ? draw_tile_x8<Mode<true, false, true>>(job, records, entries, count)
-                            : draw_tile_x8<Mode<false, false, true>>(job, records, entries, count);
+        return job.clamp ? draw_either_way<true, false, true>(job, records, entries, count)
+                         : draw_either_way<true, false, false>(job, records, entries, count);
     if (job.quantize)
-        return job.reversed ? draw_tile_x8<Mode<true, true, false>>(job, records, entries, count)
-                            : draw_tile_x8<Mode<false, true, false>>(job, records, entries, count);
-    return job.reversed ? draw_tile_x8<Mode<true, false, false>>(job, records, entries, count)
-                        : draw_tile_x8<Mode<false, false, false>>(job, records, entries, count);
+        return job.clamp ? draw_either_way<false, true, true>(job, records, entries, count)
+                         : draw_either_way<false, true, false>(job, records, entries, count);
+    return job.clamp ? draw_either_way<false, false, true>(job, records, entries, count)
+                     : draw_either_way<false, false, false>(job, records, entries, count);
+}
+
+/// Fills the tile's images with the farthest depth and no triangle.
+GNOMON_AVX2 void avx2_clear(TileJob const& job, float farthest, std::uint32_t no_id) {
+    __m256 const z = all_of(farthest);
+    __m256i const none = all_of(static_cast<std::int32_t>(no_id));
+    std::ptrdiff_t const end = std::ptrdiff_t{job.y1 - job.y0} * tile_pitch;
+    for (std::ptrdiff_t i = 0; i < end; i += 8) _mm256_store_ps(job.depth + i, z);
+    for (int i = 0; i < blocks_per_tile; i += 8) _mm256_store_ps(job.farthest + i, z);
+    if (job.id == nullptr) return;
+    for (std::ptrdiff_t i = 0; i < end; i += 8) _mm256_store_si256(reinterpret_cast<__m256i*>(job.id + i), none);
+}
+
+/// Copies the rows of a whole tile past the caches. The image's rows begin on cache lines.
+GNOMON_AVX2 void avx2_stream(TileRows const& to, void const* from) {
+    char const* source = static_cast<char const*>(from);
+    char* row = static_cast<char*>(to.first);
+    for (std::int32_t y = 0; y < to.count; ++y, row += to.stride_bytes, source += tile_pitch * 4)
+        for (std::ptrdiff_t i = 0; i < tile_size * 4; i += 32)
+            _mm256_stream_si256(reinterpret_cast<__m256i*>(row + i), _mm256_load_si256(reinterpret_cast<__m256i const*>(source + i)));
+    _mm_sfence();  // Ordered before whatever tells another thread that the tile is done.
 }
 
 }  // namespace

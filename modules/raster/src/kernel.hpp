@@ -54,6 +54,7 @@ struct TileJob {
     float* farthest;              // Per block of 8x8 samples, 8 a row: no sample of the block is farther.
     bool reversed;
     bool quantize;
+    bool clamp;  // Depths may leave [0, 1].
     void const* masked_context;
     MaskedFn masked;  // Draws one record of an alpha-tested draw.
 };
@@ -105,11 +106,22 @@ struct RecordSink {
     }
 };
 
+/// Where a tile's rows of `tile_size` elements go.
+struct TileRows {
+    void* first;  // On 64 bytes, as are all rows.
+    std::ptrdiff_t stride_bytes;
+    std::int32_t count;
+};
+
 struct KernelTable {
     void (*transform)(VertexJob const&, std::size_t begin, std::size_t end, Corner* out);
     void (*setup)(SetupJob const&, std::size_t begin, std::size_t end, RecordSink&, SetupCounts&);
     /// Draws `count` records, `entries[i]` into `records`, in order; returns the samples written.
     std::uint64_t (*tile)(TileJob const&, Record const* records, std::uint32_t const* entries, std::size_t count);
+    /// Fills the tile's images, margins included.
+    void (*clear)(TileJob const&, float farthest, std::uint32_t no_id);
+    /// Copies a whole tile of 32-bit elements out past the caches; null where there is no such store.
+    void (*stream)(TileRows const& to, void const* from);
 };
 
 /// Sets up triangle `triangle` of the job through the reference path, clipping it where needed.

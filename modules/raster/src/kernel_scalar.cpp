@@ -32,10 +32,18 @@ std::uint64_t tile(TileJob const& job, Record const* records, std::uint32_t cons
     return written;
 }
 
+void clear(TileJob const& job, float farthest, std::uint32_t no_id) {
+    for (std::ptrdiff_t i = 0; i < std::ptrdiff_t{job.y1 - job.y0} * tile_pitch; ++i) {
+        job.depth[i] = farthest;
+        if (job.id != nullptr) job.id[i] = no_id;
+    }
+    for (int i = 0; i < blocks_per_tile; ++i) job.farthest[i] = farthest;
+}
+
 }  // namespace
 
 KernelTable const& scalar_kernel() noexcept {
-    static constexpr KernelTable table{&transform, &setup, &tile};
+    static constexpr KernelTable table{&transform, &setup, &tile, &clear, nullptr};
     return table;
 }
 

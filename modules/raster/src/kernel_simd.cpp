@@ -14,7 +14,7 @@
 namespace gnomon::raster::detail {
 
 KernelTable const* simd_kernel() noexcept {
-    static constexpr KernelTable table{&avx2_transform, &avx2_setup, &avx2_tile};
+    static constexpr KernelTable table{&avx2_transform, &avx2_setup, &avx2_tile, &avx2_clear, &avx2_stream};
     return __builtin_cpu_supports("avx2") ? &table : nullptr;
 }
 

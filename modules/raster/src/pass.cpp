@@ -38,7 +38,8 @@ struct Chunk {
 
 constexpr std::size_t vertex_grain = 4096;
 constexpr std::size_t max_chunks = 64;
-constexpr std::size_t min_chunk_triangles = 1024;
+constexpr std::size_t min_chunk_triangles = 4096;
+constexpr std::int64_t streamed_pixels = std::int64_t{1} << 23U;  // 32 MiB of depth
 
 }  // namespace
 
@@ -88,6 +89,7 @@ public:
             return stats;
         }
         grid_ = detail::make_bin_grid(whole.width, whole.height);
+        streams_ = kernel_->stream != nullptr && std::int64_t{whole.width} * whole.height >= streamed_pixels;
         bool const visible = viewport.width > 0 && viewport.height > 0;
         if (!visible) stats.outside = stats.triangles;
         prepare(visible ? draws : std::span<Draw const>{}, viewport);
@@ -291,6 +293,7 @@ private:
                             .farthest = farthest,
                             .reversed = config_.depth == math::Depth::reversed,
                             .quantize = depth_.is_unorm16(),
+                            .clamp = config_.range == DepthRange::clamp,
                             .masked_context = state_.masked.data(),
                             .masked = &detail::draw_masked};
         bool loaded = load == Load::clear;
@@ -311,14 +314,11 @@ private:
 
     void load_tile(detail::TileJob const& job, Load load) const {
         float const farthest = job.reversed ? 0.0F : job.quantize ? 65535.0F : 1.0F;
-        std::fill_n(job.farthest, detail::blocks_per_tile, farthest);
+        kernel_->clear(job, farthest, no_triangle);
+        if (load == Load::clear) return;
         for (std::int32_t y = job.y0; y < job.y1; ++y) {
             std::ptrdiff_t const row = std::ptrdiff_t{y - job.y0} * detail::tile_pitch;
             std::int32_t const width = job.x1 - job.x0;
-            // The whole pitch: vectors read beyond the tile's last column.
-            std::fill_n(job.depth + row, detail::tile_pitch, farthest);
-            if (job.id != nullptr) std::fill_n(job.id + row, detail::tile_pitch, no_triangle);
-            if (load == Load::clear) continue;
             if (job.quantize)
                 std::copy_n(depth_.unorm16().row(y) + job.x0, width, job.depth + row);
             else
@@ -327,16 +327,29 @@ private:
         }
     }
 
+    /// Copies a tile out; past the caches where the image is too large to be found there again.
+    template <class T>
+    void store_rows(detail::TileJob const& job, T const* from, ImageView<T> const& to) const {
+        detail::TileRows const rows{to.row(job.y0) + job.x0, to.stride * static_cast<std::ptrdiff_t>(sizeof(T)), job.y1 - job.y0};
+        bool const aligned = (reinterpret_cast<std::uintptr_t>(rows.first) | static_cast<std::uintptr_t>(rows.stride_bytes)) % 64 == 0;
+        if (streams_ && aligned && job.x1 - job.x0 == detail::tile_size) {
+            kernel_->stream(rows, from);
+            return;
+        }
+        for (std::int32_t y = job.y0; y < job.y1; ++y, from += detail::tile_pitch)
+            std::copy_n(from, job.x1 - job.x0, to.row(y) + job.x0);
+    }
+
     void store_tile(detail::TileJob const& job) const {
+        if (job.id != nullptr) store_rows(job, job.id, *triangle_);
+        if (!job.quantize) {
+            store_rows(job, job.depth, depth_.f32());
+            return;
+        }
         for (std::int32_t y = job.y0; y < job.y1; ++y) {
-            std::ptrdiff_t const row = std::ptrdiff_t{y - job.y0} * detail::tile_pitch;
-            std::int32_t const width = job.x1 - job.x0;
-            if (job.quantize)
-                std::transform(job.depth + row, job.depth + row + width, depth_.unorm16().row(y) + job.x0,
-                               [](float code) { return static_cast<std::uint16_t>(code); });
-            else
-                std::copy_n(job.depth + row, width, depth_.f32().row(y) + job.x0);
-            if (job.id != nullptr) std::copy_n(job.id + row, width, triangle_->row(y) + job.x0);
+            float const* const row = job.depth + std::ptrdiff_t{y - job.y0} * detail::tile_pitch;
+            std::transform(row, row + (job.x1 - job.x0), depth_.unorm16().row(y) + job.x0,
+                           [](float code) { return static_cast<std::uint16_t>(code); });
         }
     }
 
@@ -347,6 +360,7 @@ private:
     core::ExecutorRef executor_;
     detail::KernelTable const* kernel_ = nullptr;
     detail::BinGrid grid_;
+    bool streams_ = false;
     std::int32_t x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;  // What is drawn: scissor and target.
     std::size_t corner_total_ = 0;
     std::size_t chunk_count_ = 0;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <new>
 #include <thread>
 #include <vector>
@@ -443,6 +444,22 @@ TEST_CASE("targets of 16384 pixels on a side are covered to their last pixel", "
             CHECK(std::none_of(canvas.id.begin(), canvas.id.end(), [](std::uint32_t id) { return id == no_triangle; }));
         }
     }
+}
+
+TEST_CASE("an image that is written past the caches equals one that is not", "[raster][size]") {
+    Mixed const scene(32, 3000);
+    std::int32_t const size = 4096;
+    std::vector<float> memory(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) + 16);
+    void* start = memory.data();
+    std::size_t space = memory.size() * sizeof(float);
+    auto const image = make_image(static_cast<float*>(std::align(64, sizeof(float), start, space)), size, size);
+    std::vector<float> plain(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    Workspace workspace;
+    core::SerialExecutor serial;
+    std::vector<Draw> const draws = scene.draws();
+    depth_pass(draws, image, {}, workspace, serial);
+    depth_pass(draws, make_image(plain.data(), size, size), {.kernel = Kernel::scalar}, workspace, serial);
+    CHECK(std::equal(plain.begin(), plain.end(), image.data));
 }
 
 TEST_CASE("large triangles equal the oracle pixel by pixel", "[raster][size]") {

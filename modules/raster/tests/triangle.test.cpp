@@ -68,10 +68,10 @@ struct Canvas {
     Workspace workspace;
     core::SerialExecutor executor;
 
-    PassStats draw(std::vector<math::vec3> const& positions, math::mat4 const& matrix, Kernel kernel) {
+    PassStats draw(std::vector<math::vec3> const& positions, math::mat4 const& matrix, math::Depth depth_order, Kernel kernel) {
         Draw const draw{.positions = std::span<math::vec3 const>(positions), .indices = {}, .clip_from_relative = matrix};
         return camera_pass({&draw, 1}, {make_image(depth.data(), size, size), make_image(id.data(), size, size)},
-                           {.depth = math::Depth::forward, .kernel = kernel}, workspace, executor);
+                           {.depth = depth_order, .kernel = kernel}, workspace, executor);
     }
 };
 
@@ -81,7 +81,7 @@ int differences(Canvas& canvas, SnappedTriangle const& t, Kernel kernel) {
     std::vector<math::vec3> positions;
     for (int copy = 0; copy < 8; ++copy)
         for (SnappedVertex const& v : t) positions.push_back(clip_of(v));
-    canvas.draw(positions, math::mat4(1.0F), kernel);
+    canvas.draw(positions, math::mat4(1.0F), math::Depth::forward, kernel);
     int wrong = 0;
     double const least_z = static_cast<double>(std::min({t[0].z, t[1].z, t[2].z}));
     for (std::int32_t y = 0; y < size; ++y)
@@ -141,7 +141,7 @@ int clipped_differences(Canvas& canvas, std::vector<math::vec3> const& corners, 
     ClipPolygon const polygon = clip_triangle(clip, viewport);
     std::vector<SnappedVertex> snapped;
     for (int i = 0; i < polygon.count; ++i) snapped.push_back(snap(polygon.corner[static_cast<std::size_t>(i)], viewport));
-    canvas.draw(corners, camera(), kernel);
+    canvas.draw(corners, camera(), math::Depth::reversed, kernel);
     int wrong = 0;
     for (std::int32_t y = 0; y < size; ++y)
         for (std::int32_t x = 0; x < size; ++x)
