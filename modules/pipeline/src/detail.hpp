@@ -34,7 +34,8 @@ class Stopwatch {
 
 /// The draws of a frame's geometry. Solid triangles go in as few as possible, masked ones by their texture.
 struct DrawList {
-    std::vector<raster::AlphaTest> alpha_tests;  ///< Pointed to by `draws`; filled first.
+    std::vector<raster::AlphaTest> alpha_tests;       ///< Pointed to by `draws`; filled first.
+    std::vector<std::vector<std::uint32_t>> rebased;  ///< Indices of draws that use few of the vertices.
     std::vector<raster::Draw> draws;
 
     /// The same triangles for another view.

@@ -4,6 +4,8 @@
 
 #include <gnomon/scene/flatten.hpp>
 
+#include <algorithm>
+
 namespace gnomon::pipeline {
 
 namespace {
@@ -24,6 +26,25 @@ raster::Draw draw_of(scene::Geometry const& geometry, std::uint32_t first, std::
         std::span<std::uint32_t const>(geometry.indices).subspan(std::size_t{first} * 3, std::size_t{count} * 3);
     draw.first_triangle = first;
     return draw;
+}
+
+/// A pass transforms all vertices of a draw: one that uses a small stretch of them gets that stretch alone.
+void keep_own_vertices(scene::Geometry const& geometry, DrawList& list) {
+    for (raster::Draw& draw : list.draws) {
+        std::span<std::uint32_t const> const indices(draw.indices.wide(), draw.indices.size());
+        auto const [lo, hi] = std::minmax_element(indices.begin(), indices.end());
+        std::size_t const first = *lo;
+        std::size_t const count = std::size_t{*hi} - first + 1;
+        if (*hi >= geometry.positions.size() || count * 2 > geometry.positions.size()) continue;
+        std::vector<std::uint32_t> own(indices.begin(), indices.end());
+        for (std::uint32_t& index : own) index -= static_cast<std::uint32_t>(first);
+        list.rebased.push_back(std::move(own));
+        draw.indices = std::span<std::uint32_t const>(list.rebased.back());
+        draw.positions = std::span(geometry.positions).subspan(first, count);
+        if (draw.alpha_test == nullptr || geometry.uv.size() < first + count) continue;
+        auto const test = static_cast<std::size_t>(draw.alpha_test - list.alpha_tests.data());
+        list.alpha_tests[test].uv = std::span(geometry.uv).subspan(first, count);
+    }
 }
 
 }  // namespace
@@ -90,6 +111,7 @@ DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, 
         list.draws.push_back(draw);
     }
     for (auto const& [draw, test] : tested) list.draws[draw].alpha_test = &list.alpha_tests[test];
+    keep_own_vertices(geometry, list);
     return list;
 }
 

@@ -160,6 +160,19 @@ math::vec3 ambient_at(ShadeConfig const& config, math::vec3 const& normal, math:
     return (config.ground_color * (1.0F - upward) + config.sky_color * upward) * side;
 }
 
+/// The exposure that shows the light's key as white paper, moved by up to a stop and a half toward an even picture.
+float picked_exposure(Frame const& frame, Shading const& shading, float key) {
+    if (frame.lit.empty()) return 1.0F / key;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < frame.lit.size(); ++i) {
+        math::vec3 const arriving = shading.ambient[i] + shading.direct[i] * static_cast<float>(frame.lit[i]);
+        sum += std::fmin(static_cast<double>(luminance(arriving) / key), 4.0);
+    }
+    constexpr float middle = 0.22F;
+    float const mean = static_cast<float>(sum / static_cast<double>(frame.lit.size()));
+    return std::clamp(middle / std::fmax(mean, 1e-6F), 0.7F, 2.2F) / key;
+}
+
 }  // namespace
 
 math::vec3 toward_light(Frame const& frame, math::vec3 const& position) noexcept {
@@ -173,7 +186,6 @@ Shading shade(Frame const& frame, ShadeConfig const& config, core::ExecutorRef e
     Shading shading{std::vector<math::vec3>(n), std::vector<math::vec3>(n), config.exposure, config};
     Palette const palette(frame);
     float const key = key_light(frame, executor);
-    if (!(config.exposure > 0.0F)) shading.exposure = 0.95F / key;
     math::vec3 const eye = math::to_float(frame.view.eye_m - frame.geometry->origin_m);
     bool const ortho = frame.view.lens == math::Lens::orthographic;
     math::vec3 const light = frame.light.color * frame.light.intensity;
@@ -199,6 +211,7 @@ Shading shade(Frame const& frame, ShadeConfig const& config, core::ExecutorRef e
             shading.ambient[i] = albedo * sky * (config.ambient * key) + palette.material(i).emissive * key;
         }
     });
+    if (!(config.exposure > 0.0F)) shading.exposure = picked_exposure(frame, shading, key);
     return shading;
 }
 

@@ -46,7 +46,7 @@ inline constexpr float half_ulp = 5.9604645e-8F;  ///< 2^-24
 /// What a surface may bend within the filter's reach before its own facets shadow each other: a facet of a dent or a
 /// groove stands before its neighbour's plane, as no facet of a bulge does. Chosen by measuring; see the README.
 inline constexpr float bend_constant_px = 0.5F;
-inline constexpr float bend_slope_px = 0.25F;
+inline constexpr float bend_slope_px = 0.1F;
 inline constexpr float bend_max_tan = 8.0F;
 
 }  // namespace detail
@@ -83,7 +83,7 @@ inline constexpr float bend_max_tan = 8.0F;
 
 /// The automatic bias's part for surfaces that are not planes.
 ///
-///     metres = texel (0.5 + 0.25 min(tan, 8))
+///     metres = texel (0.5 + 0.1 min(tan, 8))
 [[nodiscard]] inline float bend_allowance_m(Receiver const& at) noexcept {
     return at.texel_m *
            (detail::bend_constant_px + detail::bend_slope_px * std::fmin(at.tan_angle, detail::bend_max_tan));

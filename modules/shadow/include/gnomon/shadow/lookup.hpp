@@ -54,6 +54,7 @@ struct Prepared {
     float depth = 0.0F;  ///< At the receiver's image point, biased.
     float bias_m = 0.0F;
     bool faces_away = false;
+    bool nearer_is_greater = false;
 };
 
 [[nodiscard]] inline Prepared prepare(MapView const& map, math::vec3 const& position, math::vec3 const& normal,
@@ -72,16 +73,22 @@ struct Prepared {
     }
     Bias const bias = bias_at(map, at, position, config.bias, config.taps);
     ready.bias_m += bias.metres;
+    ready.nearer_is_greater = map.reversed;
     ready.depth = map.reversed ? at.depth + bias.depth : at.depth - bias.depth;
     if (!config.bias.receiver_plane) at.gradient = math::vec2(0.0F);
     return ready;
 }
 
-/// Depth of the prepared receiver's plane at the centre of texel (x, y), within what a map can hold.
+/// The depth that texel (x, y) is compared with, within what a map can hold: that of the receiver's plane under the
+/// texel's centre where the plane is nearer to the light there, the receiver's own where it is farther.
+///
+/// Following the plane away from the light would only find what lies below the receiver: at the foot of a wall, the
+/// ground in front of it.
 [[nodiscard]] inline float plane_depth(Prepared const& ready, std::int32_t x, std::int32_t y) noexcept {
     float const dx = static_cast<float>(x) + 0.5F - ready.receiver.texel.x;
     float const dy = static_cast<float>(y) + 0.5F - ready.receiver.texel.y;
-    float const depth = ready.depth + ready.receiver.gradient.x * dx + ready.receiver.gradient.y * dy;
+    float const slide = ready.receiver.gradient.x * dx + ready.receiver.gradient.y * dy;
+    float const depth = ready.depth + (ready.nearer_is_greater ? std::fmax(slide, 0.0F) : std::fmin(slide, 0.0F));
     return std::fmin(std::fmax(depth, 0.0F), 1.0F);
 }
 
