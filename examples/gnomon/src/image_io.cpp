@@ -13,7 +13,28 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include <algorithm>
+#include <cstddef>
+
 namespace gnomon::command {
+
+Picture thickened(Picture const& picture) {
+    Picture wide = picture;
+    auto const channels = static_cast<std::size_t>(picture.channels);
+    int const width = picture.size_px.x;
+    auto const at = [&](int x, int y) {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * channels;
+    };
+    for (int y = 0; y < picture.size_px.y; ++y)
+        for (int x = 0; x < width; ++x) {
+            unsigned char const* const from = &picture.pixels[at(x, y)];
+            if (from[0] == from[1] && from[1] == from[2]) continue;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.size_px.y - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+                    std::copy_n(from, channels, &wide.pixels[at(u, v)]);
+        }
+    return wide;
+}
 
 Bytes png_from(Picture const& picture) {
     Bytes png;

@@ -21,6 +21,9 @@ struct Picture {
     [[nodiscard]] bool empty() const noexcept { return pixels.empty(); }
 };
 
+/// The picture with every pixel that is not grey drawn three pixels wide, so that it can be seen when scaled down.
+[[nodiscard]] Picture thickened(Picture const& picture);
+
 /// The picture as a PNG file's bytes; empty for an empty picture.
 [[nodiscard]] Bytes png_from(Picture const& picture);
 

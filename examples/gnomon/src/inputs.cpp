@@ -199,6 +199,7 @@ Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene
     }
     if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + name_of(lights, 0)};
     light = scene::default_sun();
+    for (int axis = 0; axis < 3; ++axis) light.direction[axis] = std::round(light.direction[axis] * 1e3) / 1e3;
     return Described<scene::Light>{light, "--sun " + text_of(light.direction)};
 }
 

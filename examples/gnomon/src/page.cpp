@@ -3,6 +3,7 @@
 #include "page_style.hpp"
 #include "plot.hpp"
 #include "table.hpp"
+#include "values.hpp"
 
 #include <fmt/format.h>
 
@@ -49,10 +50,17 @@ std::string css_color(math::vec3 const& linear) {
     return fmt::format("rgb({:.0f} {:.0f} {:.0f})", encoded(linear.x), encoded(linear.y), encoded(linear.z));
 }
 
+/// Each word on one line: an option must not be broken after its hyphens.
+std::string unbroken(std::string const& text) {
+    std::string html;
+    for (std::string const& word : split(text, ' ')) html += fmt::format("<span class='word'>{}</span> ", escaped(word));
+    return html;
+}
+
 std::string facts_html(Report const& report) {
     std::string html = "<dl>\n";
     for (Fact const& fact : report.facts)
-        fmt::format_to(std::back_inserter(html), "<dt>{}</dt><dd>{}</dd>\n", escaped(fact.name), escaped(fact.value));
+        fmt::format_to(std::back_inserter(html), "<dt>{}</dt><dd>{}</dd>\n", escaped(fact.name), unbroken(fact.value));
     return html + "</dl>\n";
 }
 
@@ -112,7 +120,7 @@ std::string card_html(Report const& report, Run const& run, RunPictures const& p
                        "<span class='swatch shadow'></span>{} false-shadow. {} ms{}.</p>\n{}</article>\n",
                        escaped(run.label), choice_html(fmt::format("run{}", index), "", ""),
                        picture_html(pictures.lit, report.size_px, "Lit picture of " + run.label),
-                       picture_html(pictures.overlay, report.size_px, "Wrong pixels of " + run.label),
+                       picture_html(pictures.marks, report.size_px, "Wrong pixels of " + run.label),
                        percent(error.wrong_fraction), grouped(error.false_lit), grouped(error.false_shadow),
                        figures(run.result.ms.median), pace, details_html(run));
 }
@@ -131,7 +139,8 @@ constexpr std::string_view explanation =
 
 constexpr std::string_view legend =
     "<ul class='legend'><li><span class='swatch lit'></span><b>false-lit</b>: shown lit, truly in shadow (a leak)</li>"
-    "<li><span class='swatch shadow'></span><b>false-shadow</b>: shown in shadow, truly lit (acne, a blocky edge)</li></ul>\n";
+    "<li><span class='swatch shadow'></span><b>false-shadow</b>: shown in shadow, truly lit (acne, a blocky edge)</li></ul>\n"
+    "<p class='soft'>Wrong pixels are drawn three pixels wide here; the files that end in .wrong.png show them as they are.</p>\n";
 
 }  // namespace
 

@@ -13,6 +13,7 @@ namespace gnomon::command {
 struct RunPictures {
     Bytes lit;
     Bytes overlay;
+    Bytes marks;  ///< The overlay for the page, where pictures are small: wrong pixels drawn larger.
 };
 
 struct ReportPictures {

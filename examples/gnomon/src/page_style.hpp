@@ -27,7 +27,8 @@ figcaption { color: var(--soft); font-size: 14px; margin-top: 6px; }
 img { display: block; width: 100%; height: auto; border-radius: 6px; cursor: zoom-in; background: var(--line); }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: 6px 16px; margin: 0; font-size: 14px; }
 dt { color: var(--soft); }
-dd { margin: 0; overflow-wrap: anywhere; }
+dd { margin: 0; }
+.word { display: inline-block; max-width: 100%; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; margin-bottom: 14px; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }
 th, td { padding: 8px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -64,6 +65,13 @@ std::string left_out(Inputs const& inputs, pipeline::Frame const& frame) {
     return text;
 }
 
+/// "camera_pass" as "camera pass".
+std::string words_of(std::string_view name) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
 std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipeline::Frame const& frame, Report const& report) {
     scene::Scene const& scene = inputs.loaded.scene;
     bool const from_scene = inputs.light.text.starts_with("--light");
@@ -80,7 +88,7 @@ std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipe
     for (std::string const& warning : scene.notes.warnings) facts.push_back({"note", warning});
     std::string truth;
     for (pipeline::StageTime const& stage : frame.stages)
-        truth += fmt::format("{}{} {} ms", truth.empty() ? "" : ", ", stage.name, figures(stage.ms));
+        truth += fmt::format("{}{} {} ms", truth.empty() ? "" : ", ", words_of(stage.name), figures(stage.ms));
     facts.push_back({"preparation", truth});
     facts.push_back({"machine", fmt::format("{}, {} threads used of {}", report.machine.cpu, options.threads,
                                             report.machine.logical_cores)});
@@ -119,6 +127,11 @@ ReportPictures compress(Report const& report, bool overlays, core::ExecutorRef e
     executor.parallel_for(jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) *jobs[i].second = png_from(picture_of(*jobs[i].first));
     });
+    if (overlays)
+        executor.parallel_for(report.runs.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                pictures.runs[i].marks = png_from(thickened(picture_of(report.runs[i].result.overlay)));
+        });
     return pictures;
 }
 
@@ -143,6 +156,7 @@ std::vector<OutputFile> files_of(Report const& report, Verb verb, core::Executor
 /// The pipeline's own reports of progress, after the two steps that come first here.
 struct StepsOfRuns {
     ProgressBar* bar;
+    std::vector<PlannedRun> const* plan;
     static constexpr int before = 2;
     static constexpr int after = 1;
 
@@ -150,7 +164,10 @@ struct StepsOfRuns {
     static int steps(std::size_t runs) { return before + 1 + static_cast<int>(runs) + after; }
 
     static void report(void* context, int done, int total, std::string_view what) {
-        static_cast<StepsOfRuns*>(context)->bar->show(before + done, before + total + after, what);
+        auto const& self = *static_cast<StepsOfRuns*>(context);
+        bool const is_run = done >= 1 && static_cast<std::size_t>(done) <= self.plan->size();
+        self.bar->show(before + done, before + total + after,
+                       is_run ? std::string_view((*self.plan)[static_cast<std::size_t>(done) - 1].label) : what);
     }
 };
 
@@ -179,7 +196,7 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     if (!frame) return exit_for(frame.failure());
     std::vector<pipeline::RunRequest> requests;
     for (PlannedRun const& planned : plan) requests.push_back({planned.technique, planned.params});
-    StepsOfRuns steps_of_runs{&bar};
+    StepsOfRuns steps_of_runs{&bar, &plan};
     pipeline::CompareConfig config;
     config.repeats = options.repeats;
     config.progress = {&StepsOfRuns::report, &steps_of_runs};

@@ -43,3 +43,15 @@ TEST_CASE("a PNG says its size, and a data URI is base64 with padding", "[image]
     CHECK(data_uri(bytes_of("Ma")) == "data:image/png;base64,TWE=");
     CHECK(data_uri(bytes_of("M")) == "data:image/png;base64,TQ==");
 }
+
+TEST_CASE("wrong pixels are thickened within the picture, right ones stay", "[image]") {
+    Picture picture{{4, 3}, 3, Bytes(36, 128)};
+    picture.pixels[0] = 255;  // the top left corner, no longer grey
+    Picture const wide = thickened(picture);
+    int colored = 0;
+    for (std::size_t i = 0; i < wide.pixels.size(); i += 3) colored += wide.pixels[i] == 255 ? 1 : 0;
+    CHECK(colored == 4);
+    CHECK(wide.pixels[15] == 255);
+    CHECK(wide.pixels[6] == 128);
+    CHECK(thickened({}).empty());
+}
