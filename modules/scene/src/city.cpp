@@ -146,7 +146,7 @@ void add_city_views(Scene& scene) {
     scene.cameras.push_back(looking_at("air", {-230.0, 120.0, 260.0}, {40.0, 8.0, -40.0}, sixty_degrees_rad));
     scene.cameras.push_back(
         looking_at("street", {-222.2, 1.7, -414.3}, dvec3(-222.2, 1.7, -414.3) + dvec3(0.35, 0.06, 1.0), sixty_degrees_rad));
-    scene.cameras.push_back(looking_at("far", {-700.0, 420.0, -700.0}, {0.0, 0.0, -40.0}, sixty_degrees_rad * 0.75));
+    scene.cameras.push_back(looking_at("far", {-560.0, 420.0, 760.0}, {0.0, 0.0, 40.0}, sixty_degrees_rad * 0.75));
     for (Camera& camera : scene.cameras) {
         camera.near_m = near_m;
         camera.far_m = far_m;

@@ -41,7 +41,8 @@ Instance floating_cube(Pcg32& random, std::uint32_t mesh, dvec3 const& cell_m) {
     constexpr double pitch_m = 1.6;
     double const edge_m = random.uniform(0.35, 0.65);
     double const room_m = (pitch_m - edge_m * 1.7320508075688772) * 0.5;
-    dvec3 const shift(random.uniform(-room_m, room_m), random.uniform(-room_m, room_m), random.uniform(-room_m, room_m));
+    dvec3 shift;  // drawn one by one: the order in which arguments are evaluated is the compiler's
+    for (int axis = 0; axis < 3; ++axis) shift[axis] = random.uniform(-room_m, room_m);
     auto const axes = random_axes(random);
     Instance instance;
     instance.name = "cube";

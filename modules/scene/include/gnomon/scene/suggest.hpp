@@ -12,7 +12,7 @@ struct SuggestedView {
     math::dvec3 eye_m{0.0, 0.0, 0.0};
     math::dvec3 target_m{0.0, 0.0, -1.0};
     double fov_y_rad = 1.0471975511965976;
-    double near_m = 0.1;  ///< Nothing of the scene stands nearer to the eye than this.
+    double near_m = 0.1;  ///< Well before the nearest thing that a thousand rays through the image meet.
     bool inside = false;  ///< The eye stands among the walls of an interior.
 };
 
