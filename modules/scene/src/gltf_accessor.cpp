@@ -63,14 +63,21 @@ void add_dense(Document& document, tinygltf::Accessor const& in, int index, Acce
 }
 
 /// A packed array inside a buffer view, as the two parts of a sparse accessor are.
-std::byte const* sparse_part(Document const& document, int view, int offset, std::size_t count, std::size_t element, int index) {
-    if (view < 0 || offset < 0) bad_accessor(index, "has a sparse part without a buffer view");
-    std::span<std::byte const> const bytes = document.view_bytes(static_cast<std::uint64_t>(view));
-    if (!fits(bytes.size(), static_cast<std::size_t>(offset), count, element, element))
-        bad_accessor(index, "has " + std::to_string(count) + " sparse elements of " + std::to_string(element) +
-                                " bytes from byte " + std::to_string(offset) + " of a buffer view of " +
-                                std::to_string(bytes.size()));
-    return bytes.data() + offset;
+struct SparsePart {
+    int view;
+    int offset;
+    std::size_t count;
+    std::size_t element_bytes;
+};
+
+std::byte const* sparse_bytes(Document const& document, SparsePart const& part, int index) {
+    if (part.view < 0 || part.offset < 0) bad_accessor(index, "has a sparse part without a buffer view");
+    std::span<std::byte const> const bytes = document.view_bytes(static_cast<std::uint64_t>(part.view));
+    if (!fits(bytes.size(), static_cast<std::size_t>(part.offset), part.count, part.element_bytes, part.element_bytes))
+        bad_accessor(index, "has " + std::to_string(part.count) + " sparse elements of " +
+                                std::to_string(part.element_bytes) + " bytes from byte " + std::to_string(part.offset) +
+                                " of a buffer view of " + std::to_string(bytes.size()));
+    return bytes.data() + part.offset;
 }
 
 void add_sparse(Document& document, tinygltf::Accessor const& in, int index, Accessor& out) {
@@ -86,9 +93,9 @@ void add_sparse(Document& document, tinygltf::Accessor const& in, int index, Acc
     indices.component_type = type;
     indices.stride = component_bytes(type);
     indices.count = count;
-    indices.data = sparse_part(document, sparse.indices.bufferView, sparse.indices.byteOffset, count, indices.stride, index);
+    indices.data = sparse_bytes(document, {sparse.indices.bufferView, sparse.indices.byteOffset, count, indices.stride}, index);
     out.sparse_values =
-        sparse_part(document, sparse.values.bufferView, sparse.values.byteOffset, count, out.element_bytes, index);
+        sparse_bytes(document, {sparse.values.bufferView, sparse.values.byteOffset, count, out.element_bytes}, index);
     document.charge_elements(count);
     out.sparse_indices.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -37,9 +37,6 @@ bool refuse_file(std::string const&, void*) { return false; }
 std::string same_path(std::string const& path, void*) { return path; }
 bool refuse_read(std::vector<unsigned char>*, std::string*, std::string const&, void*) { return false; }
 bool refuse_write(std::string*, std::string const&, std::vector<unsigned char> const&, void*) { return false; }
-bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, unsigned char const*, int, void*) {
-    return true;
-}
 
 }  // namespace
 
@@ -103,7 +100,9 @@ void Document::parse(std::string_view json) {
     files.ReadWholeFile = refuse_read;
     files.WriteWholeFile = refuse_write;
     parser.SetFsCallbacks(files);
-    parser.SetImageLoader(ignore_image, nullptr);
+    parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, unsigned char const*, int,
+                             void*) { return true; },
+                          nullptr);
     std::string error;
     std::string warning;
     if (!parser.LoadASCIIFromString(&model, &error, &warning, scanned.text.data(),

@@ -31,10 +31,7 @@ void comes_back_equal(scene::Scene const& s) {
     CHECK(folder.file_count() == 2);
 }
 
-/// A scene with something of everything, and numbers that are hard to print.
-scene::Scene everything() {
-    scene::Scene s;
-    s.name = "every \"thing\" \\ \n \xC3\xBC";
+void add_surfaces(scene::Scene& s) {
     s.images.push_back({"dots", {3, 2}, {}});
     for (int i = 0; i < 24; ++i) s.images[0].rgba.push_back(static_cast<std::uint8_t>(i * 11));
     s.images.push_back({"", {1, 1}, {1, 2, 3, 4}});
@@ -54,6 +51,9 @@ scene::Scene everything() {
     s.materials[1].base_color_texture.offset = {0.1F, -3e9F};
     s.materials[1].base_color_texture.scale = {7.0F, 0.3F};
     s.materials[1].base_color_texture.rotation_rad = 0.7F;
+}
+
+void add_meshes(scene::Scene& s) {
     for (std::uint32_t m = 0; m < 3; ++m) {
         scene::Primitive p;
         p.positions = {{0.0F, -0.0F, 1e-45F}, {1.0F, 0.1F, 0.0F}, {3e38F, 1.0F, 1e-10F}, {0.3F, 0.7F, 16777217.0F}};
@@ -72,6 +72,9 @@ scene::Scene everything() {
             for (int r = 0; r < 3; ++r) instance.world_from_mesh[c][r] = std::sin(i * 12.0 + c * 4.0 + r) * std::pow(10.0, r * 4 - 2);
         s.instances.push_back(instance);
     }
+}
+
+void add_cameras_and_lights(scene::Scene& s) {
     s.cameras.push_back(scene::looking_at("p", {1e7 + 0.1, 2.0, 3.0}, {1e7, 0.3, -0.7}, 0.9));
     s.cameras.push_back(scene::looking_at("o", {0.0, 10.0, 0.0}, {0.0, 0.0, 0.0}, 0.9));
     s.cameras[1].kind = scene::CameraKind::orthographic;
@@ -91,6 +94,15 @@ scene::Scene everything() {
         if (kind == 2) l.inner_cone_rad = 0.1F;
         s.lights.push_back(l);
     }
+}
+
+/// A scene with something of everything, and numbers that are hard to print.
+scene::Scene everything() {
+    scene::Scene s;
+    s.name = "every \"thing\" \\ \n \xC3\xBC";
+    add_surfaces(s);
+    add_meshes(s);
+    add_cameras_and_lights(s);
     return s;
 }
 
