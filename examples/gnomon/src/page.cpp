@@ -159,7 +159,8 @@ std::string page_html(Report const& report, ReportPictures const& pictures) {
     html += explanation;
     html += table_html(report);
     html += "<p class='soft'>Edge error: how far a wrong sample lies from the nearest one that truly has its state. Speed: the "
-            "time of the ray run divided by the run's, measured in the same command on the same samples.</p>\n";
+            "time of exact rays divided by the run's, measured in the same command on the same samples: the ray run's time, or that of "
+            "tracing the truth where there is no ray run.</p>\n";
     html += plot_section(report);
     html += "<h2>Pictures</h2>\n";
     html += legend;

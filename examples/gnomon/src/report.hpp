@@ -48,15 +48,16 @@ struct Report {
     std::uint64_t truly_lit = 0;
     int threads = 1;
     int repeats = 1;
+    double truth_ms = 0.0;  ///< What tracing the truth took: the same work as a `ray` run.
     Machine machine;
     std::vector<Run> runs;
     pipeline::Image exact;
 };
 
-/// Milliseconds of the `ray` run, the peer that every time is shown beside.
+/// Milliseconds of exact rays, the peer that every time is shown beside: the `ray` run's, or else the truth's own.
 [[nodiscard]] std::optional<double> ray_ms(Report const& report);
 
-/// How many times as fast as the `ray` run of the same command; nothing without one.
+/// How many times as fast as exact rays in the same command; nothing where either took no time.
 [[nodiscard]] std::optional<double> speed_over_ray(Report const& report, Run const& run);
 
 }  // namespace gnomon::command

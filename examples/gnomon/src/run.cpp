@@ -109,6 +109,8 @@ Report make_report(RunOptions const& options, Inputs const& inputs, pipeline::Fr
     report.repeats = options.repeats;
     report.machine = this_machine();
     report.samples = frame.samples.size();
+    for (pipeline::StageTime const& stage : frame.stages)
+        if (stage.name.starts_with("truth")) report.truth_ms += stage.ms;
     return report;
 }
 
