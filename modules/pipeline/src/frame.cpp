@@ -172,9 +172,10 @@ std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state,
     std::vector<std::uint64_t> shadow(trace::visibility_words(n));
     with_opacity(frame, state, [&](auto const& opacity) {
         trace::VisibilityConfig<std::remove_cvref_t<decltype(opacity)>> config;
+        config.light = state.light;
         config.own_plane = trace::OwnPlane{triangles_of(frame, state), state.eye};
         config.opacity = opacity;
-        (void)trace::visibility(bvh, std::span<sample::ViewSample const>(state.samples), state.light,
+        (void)trace::visibility(bvh, std::span<sample::ViewSample const>(state.samples),
                                 std::span<std::uint64_t>(shadow), executor, config);
     });
     std::vector<std::uint8_t> lit(n);

@@ -41,7 +41,7 @@ TEST_CASE("visibility sets the bit of every blocked sample, and sums are the sam
     auto const light = Light::point(math::vec3(12.3F, 220.7F, -120.1F));
     std::vector<std::uint64_t> expected(trace::visibility_words(samples.size()), ~std::uint64_t{0});
     core::SerialExecutor const serial;
-    auto const stats = visibility(bvh, std::span<Sample const>(samples), light, expected, serial);
+    auto const stats = visibility(bvh, std::span<Sample const>(samples), expected, serial, trace::VisibilityConfig<>{light});
     std::size_t count = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         bool const truth = !samples[i].triangle.is_none() &&
@@ -56,7 +56,7 @@ TEST_CASE("visibility sets the bit of every blocked sample, and sums are the sam
     for (int const threads : {1, 2, 7}) {
         core::TbbExecutor executor(threads);
         std::vector<std::uint64_t> bits(expected.size());
-        CHECK(visibility(bvh, std::span<Sample const>(samples), light, bits, executor) == stats);
+        CHECK(visibility(bvh, std::span<Sample const>(samples), bits, executor, trace::VisibilityConfig<>{light}) == stats);
         CHECK(bits == expected);
     }
 }
@@ -70,7 +70,8 @@ TEST_CASE("a sample whose own plane separates eye and light is in shadow, if the
     core::SerialExecutor const serial;
     trace::VisibilityConfig<> config;
     auto const shadow = [&](Light const& light) {
-        visibility(bvh, std::span<Sample const>(samples), light, bits, serial, config);
+        config.light = light;
+        visibility(bvh, std::span<Sample const>(samples), bits, serial, config);
         return trace::is_in_shadow(bits, 0);
     };
     auto const below = Light::point(math::vec3(1.0F, -9.0F, 1.0F));
@@ -91,7 +92,7 @@ TEST_CASE("NaN samples and lights are lit and counted", "[trace][degenerate]") {
     std::vector<Sample> const samples{{TriangleId(7), math::vec3(0.0F)}, {TriangleId(8), math::vec3(nan, 0.0F, 0.0F)}, {}};
     std::vector<std::uint64_t> bits(1);
     core::SerialExecutor const serial;
-    auto const run = [&](Light const& light) { return visibility(bvh, std::span<Sample const>(samples), light, bits, serial); };
+    auto const run = [&](Light const& light) { return visibility(bvh, std::span<Sample const>(samples), bits, serial, trace::VisibilityConfig<>{light}); };
     auto const good = run(Light::direction(math::vec3(0.0F, 1.0F, 0.0F)));
     CHECK(bits[0] == 1);
     CHECK(good.samples == 2);

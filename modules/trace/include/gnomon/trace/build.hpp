@@ -9,7 +9,7 @@
 #include <gnomon/predicates/orient.hpp>
 #include <gnomon/predicates/triangle_list.hpp>
 #include <gnomon/trace/bvh.hpp>
-#include <gnomon/trace/detail/build_range.hpp>
+#include <gnomon/trace/detail/builder.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -79,11 +79,17 @@ namespace detail {
     return blocks(block.triangle(lane), s);
 }
 
-/// Calls `visit(block, lane)` for each triangle that blocks `s`, but for `own`; stops when it returns true.
-/// `limit` bounds t: subtrees that lie wholly beyond it are passed over.
+/// What is looked for. Subtrees that lie wholly beyond t = `limit` are passed over; a visitor may lower it.
+struct Search {
+    Segment segment;
+    core::TriangleId own;
+    double limit = std::numeric_limits<double>::infinity();
+};
+
+/// Calls `visit(block, lane)` for each triangle that blocks the segment, but for the own one; stops when it returns true.
 template <class Visit>
-void for_each_blocker(Bvh const& bvh, Segment const& s, core::TriangleId own, double const& limit, Counts& counts,
-                      Visit&& visit) {
+void for_each_blocker(Bvh const& bvh, Search const& search, Counts& counts, Visit&& visit) {
+    Segment const& s = search.segment;
     if (bvh.nodes.empty() || !is_valid(s)) return;
     struct Entry {
         Child child;
@@ -97,7 +103,7 @@ void for_each_blocker(Bvh const& bvh, Segment const& s, core::TriangleId own, do
     SegmentLanes const lanes = make_lanes(s);
     while (size != 0) {
         Entry const entry = stack[--size];
-        if (entry.near > limit) continue;
+        if (entry.near > search.limit) continue;
         if (!entry.child.is_block()) {
             Node const& node = bvh.nodes[entry.child.index()];
             ++counts.nodes;
@@ -113,7 +119,7 @@ void for_each_blocker(Bvh const& bvh, Segment const& s, core::TriangleId own, do
         Verdict const verdict = test_block(lanes, block);
         for (std::uint32_t met = verdict.blocked | verdict.unsure; met != 0; met &= met - 1) {
             auto const lane = static_cast<std::size_t>(std::countr_zero(met));
-            if (block.id[lane].is_none() || block.id[lane] == own) continue;
+            if (block.id[lane].is_none() || block.id[lane] == search.own) continue;
             if ((verdict.unsure >> lane & 1U) != 0) {
                 ++counts.exact;
                 if (!blocks_exactly(block, lane, s)) continue;
@@ -146,8 +152,7 @@ template <Opacity F = Solid>
 [[nodiscard]] bool is_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own, Counts& counts,
                               F const& opacity = {}) {
     bool found = false;
-    double const no_limit = std::numeric_limits<double>::infinity();
-    detail::for_each_blocker(bvh, s, own, no_limit, counts, [&](Block const& block, std::size_t lane) {
+    detail::for_each_blocker(bvh, {s, own}, counts, [&](Block const& block, std::size_t lane) {
         if constexpr (std::same_as<F, Solid>) {
             found = true;
         } else {
@@ -174,13 +179,13 @@ template <Opacity F = Solid>
     std::optional<Crossing> nearest;
     if (!is_valid(s)) return nearest;
     detail::Slabs const slabs = detail::make_slabs(s);
-    double limit = std::numeric_limits<double>::infinity();
-    detail::for_each_blocker(bvh, s, own, limit, counts, [&](Block const& block, std::size_t lane) {
+    detail::Search search{s, own};
+    detail::for_each_blocker(bvh, search, counts, [&](Block const& block, std::size_t lane) {
         Crossing crossing = crossing_of(block.id[lane], block.triangle(lane), s);
         crossing.t = detail::clamp_to_box(crossing.t, slabs, block.triangle(lane));
-        bool const nearer = crossing.t < limit || (crossing.t == limit && crossing.triangle < nearest->triangle);
+        bool const nearer = crossing.t < search.limit || (crossing.t == search.limit && nearest && crossing.triangle < nearest->triangle);
         if (nearer && opacity(crossing)) {
-            limit = crossing.t;
+            search.limit = crossing.t;
             nearest = crossing;
         }
         return false;

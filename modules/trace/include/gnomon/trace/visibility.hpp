@@ -70,21 +70,48 @@ namespace detail {
 
 }  // namespace detail
 
-/// How `visibility` is asked, beyond the samples and the light.
+/// What `visibility` is asked, beyond the samples.
 template <Opacity F = Solid>
 struct VisibilityConfig {
-    std::optional<OwnPlane> own_plane;  ///< None: the own triangle is left out and nothing more.
+    Light light;
+    std::optional<OwnPlane> own_plane = {};  ///< None: the own triangle is left out and nothing more.
     F opacity{};
 };
 
-/// Sets bit i of `shadow` where sample i is in shadow of `light`; clears all others, those behind the last too.
+namespace detail {
+
+/// The bits of at most 64 samples.
+template <SampleLike S, Opacity F>
+[[nodiscard]] std::uint64_t shadow_word(Bvh const& bvh, std::span<S const> samples, VisibilityConfig<F> const& config,
+                                        VisibilityStats& stats) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        core::TriangleId const id = samples[i].triangle;
+        if (id.is_none()) continue;
+        ++stats.samples;
+        Segment const segment{samples[i].position, config.light};
+        if (!is_valid(segment)) {
+            ++stats.invalid;
+            continue;
+        }
+        bool const away = config.own_plane && faces_away(*config.own_plane, id, config.light);
+        stats.facing_away += away ? 1U : 0U;
+        if (away || is_blocked(bvh, segment, id, stats.counts, config.opacity)) bits |= std::uint64_t{1} << i;
+    }
+    stats.in_shadow += static_cast<std::uint64_t>(std::popcount(bits));
+    return bits;
+}
+
+}  // namespace detail
+
+/// Sets bit i of `shadow` where sample i is in shadow of the config's light; clears all others, those behind the last too.
 ///
 /// expects: `shadow` holds `visibility_words(samples.size())` words.
 /// returns: sums that do not depend on the executor. A NaN or infinite sample, or light, is lit and counted invalid.
 /// cost:    one query per sample; no allocation.
 template <SampleLike S, core::Executor E, Opacity F = Solid>
-VisibilityStats visibility(Bvh const& bvh, std::span<S const> samples, Light const& light,
-                           std::span<std::uint64_t> shadow, E& executor, VisibilityConfig<F> const& config = {}) {
+VisibilityStats visibility(Bvh const& bvh, std::span<S const> samples, std::span<std::uint64_t> shadow, E& executor,
+                           VisibilityConfig<F> const& config) {
     std::size_t const words = visibility_words(samples.size());
     GNOMON_EXPECT(shadow.size() >= words);
     std::atomic_flag busy;
@@ -92,24 +119,9 @@ VisibilityStats visibility(Bvh const& bvh, std::span<S const> samples, Light con
     executor.parallel_for(words, 16, [&](std::size_t begin, std::size_t end) {
         VisibilityStats stats;
         for (std::size_t word = begin; word < end; ++word) {
-            std::uint64_t bits = 0;
-            std::size_t const last = std::min(samples.size(), word * 64 + 64);
-            for (std::size_t i = word * 64; i < last; ++i) {
-                S const& sample = samples[i];
-                core::TriangleId const id = sample.triangle;
-                if (id.is_none()) continue;
-                ++stats.samples;
-                Segment const segment{sample.position, light};
-                if (!is_valid(segment)) {
-                    ++stats.invalid;
-                    continue;
-                }
-                bool const away = config.own_plane && detail::faces_away(*config.own_plane, id, light);
-                stats.facing_away += away ? 1U : 0U;
-                if (away || is_blocked(bvh, segment, id, stats.counts, config.opacity)) bits |= std::uint64_t{1} << (i % 64);
-            }
-            stats.in_shadow += static_cast<std::uint64_t>(std::popcount(bits));
-            shadow[word] = bits;
+            std::size_t const first = word * 64;
+            shadow[word] = detail::shadow_word(bvh, samples.subspan(first, std::min<std::size_t>(64, samples.size() - first)),
+                                               config, stats);
         }
         while (busy.test_and_set(std::memory_order_acquire)) {}
         total += stats;
