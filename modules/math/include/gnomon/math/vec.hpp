@@ -41,9 +41,27 @@ static_assert(sizeof(dvec3) == 24 && alignof(dvec3) == alignof(double) && sizeof
     return dvec3(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 
+namespace detail {
+
+/// `x` rounded to float, for certain. GCC 12 at -O2 vectorizes pairs of conversions double -> float -> double and then
+/// drops both as if nothing had been rounded; a value that passes through an empty asm is one it must compute.
+[[nodiscard]] inline float rounded(double x) noexcept {
+    auto value = static_cast<float>(x);
+#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__SSE__)
+    __asm__("" : "+x"(value));
+#else
+    __asm__("" : "+m"(value));
+#endif
+#endif
+    return value;
+}
+
+}  // namespace detail
+
 /// Each component rounded to the nearest float.
 [[nodiscard]] inline vec3 to_float(dvec3 const& v) noexcept {
-    return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+    return vec3(detail::rounded(v.x), detail::rounded(v.y), detail::rounded(v.z));
 }
 
 /// Each element rounded to the nearest float.
