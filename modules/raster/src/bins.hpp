@@ -15,6 +15,7 @@ inline constexpr int max_bin_levels = 5;  // 64 px to 16,384 px
 inline constexpr std::uint32_t max_bins_touched = 16;
 
 struct BinGrid {
+    std::int32_t shift_x = 0;  // Columns by which the grid begins left of the image.
     int levels = 0;
     std::uint32_t total = 0;
     std::uint32_t width[max_bin_levels] = {};
@@ -23,8 +24,10 @@ struct BinGrid {
 
 [[nodiscard]] constexpr int bin_shift(int level) noexcept { return tile_shift + 2 * level; }
 
-[[nodiscard]] inline BinGrid make_bin_grid(std::int32_t width_px, std::int32_t height_px) noexcept {
+[[nodiscard]] inline BinGrid make_bin_grid(std::int32_t width_px, std::int32_t height_px, std::int32_t shift_x) noexcept {
     BinGrid grid;
+    grid.shift_x = shift_x;
+    width_px += shift_x;
     while (grid.levels < max_bin_levels) {
         int const shift = bin_shift(grid.levels);
         auto const bins = [shift](std::int32_t px) { return static_cast<std::uint32_t>((px + (1 << shift) - 1) >> shift); };
@@ -44,8 +47,8 @@ inline void for_each_bin(BinGrid const& grid, Record const& r, F&& f) {
     std::uint32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     for (;; ++level) {
         int const shift = bin_shift(level);
-        x0 = static_cast<std::uint32_t>(r.min_x >> shift);
-        x1 = static_cast<std::uint32_t>(r.max_x >> shift);
+        x0 = static_cast<std::uint32_t>((r.min_x + grid.shift_x) >> shift);
+        x1 = static_cast<std::uint32_t>((r.max_x + grid.shift_x) >> shift);
         y0 = static_cast<std::uint32_t>(r.min_y >> shift);
         y1 = static_cast<std::uint32_t>(r.max_y >> shift);
         if ((x1 - x0 + 1) * (y1 - y0 + 1) <= max_bins_touched || level + 1 == grid.levels) break;

@@ -88,8 +88,9 @@ public:
             stats.outside = stats.triangles;
             return stats;
         }
-        grid_ = detail::make_bin_grid(whole.width, whole.height);
-        streams_ = kernel_->stream != nullptr && std::int64_t{whole.width} * whole.height >= streamed_pixels;
+        streams_ = kernel_->stream != nullptr && !depth_.is_unorm16() &&
+                   std::int64_t{whole.width} * whole.height >= streamed_pixels;
+        grid_ = detail::make_bin_grid(whole.width, whole.height, streams_ ? columns_past_a_line() : 0);
         bool const visible = viewport.width > 0 && viewport.height > 0;
         if (!visible) stats.outside = stats.triangles;
         prepare(visible ? draws : std::span<Draw const>{}, viewport);
@@ -114,6 +115,12 @@ private:
         y0_ = std::max(scissor.y, 0);
         x1_ = end(scissor.x, scissor.width, whole.width);
         y1_ = end(scissor.y, scissor.height, whole.height);
+    }
+
+    /// How far into a cache line the image's rows begin: with the grid shifted by it, tiles are whole lines.
+    [[nodiscard]] std::int32_t columns_past_a_line() const {
+        auto const address = reinterpret_cast<std::uintptr_t>(depth_.f32().data);
+        return depth_.f32().stride % 16 == 0 ? static_cast<std::int32_t>(address % 64 / sizeof(float)) : 0;
     }
 
     /// Triangles set up before their tiles are drawn: enough that a tile is visited seldom, few enough that their
@@ -265,9 +272,9 @@ private:
     }
 
     [[nodiscard]] std::uint64_t draw_tiles(Load load) {
-        std::int32_t const first_x = x0_ >> detail::tile_shift;
+        std::int32_t const first_x = (x0_ + grid_.shift_x) >> detail::tile_shift;
         std::int32_t const first_y = y0_ >> detail::tile_shift;
-        auto const across = static_cast<std::size_t>(((x1_ - 1) >> detail::tile_shift) - first_x + 1);
+        auto const across = static_cast<std::size_t>(((x1_ - 1 + grid_.shift_x) >> detail::tile_shift) - first_x + 1);
         auto const down = static_cast<std::size_t>(((y1_ - 1) >> detail::tile_shift) - first_y + 1);
         std::uint64_t* const written = state_.written.fit(across * down);
         executor_.parallel_for(across * down, 4, [&](std::size_t begin, std::size_t end) {
@@ -284,9 +291,9 @@ private:
         alignas(64) float depth[detail::tile_size * detail::tile_pitch];
         alignas(64) std::uint32_t id[detail::tile_size * detail::tile_pitch];
         alignas(64) float farthest[detail::blocks_per_tile];
-        detail::TileJob job{.x0 = std::max(x0_, tile_x << detail::tile_shift),
+        detail::TileJob job{.x0 = std::max(x0_, (tile_x << detail::tile_shift) - grid_.shift_x),
                             .y0 = std::max(y0_, tile_y << detail::tile_shift),
-                            .x1 = std::min(x1_, (tile_x + 1) << detail::tile_shift),
+                            .x1 = std::min(x1_, ((tile_x + 1) << detail::tile_shift) - grid_.shift_x),
                             .y1 = std::min(y1_, (tile_y + 1) << detail::tile_shift),
                             .depth = depth,
                             .id = triangle_ != nullptr ? id : nullptr,

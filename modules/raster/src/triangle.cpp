@@ -56,6 +56,15 @@ ClipPolygon cut_polygon(ClipPolygon const& from, int plane, ViewportTransform co
     return to;
 }
 
+/// Back inside by what rounding took it out: nothing but a last place or so, except where the corners' sizes differ by
+/// many orders of magnitude. A corner that is inside stays as it is.
+void settle(math::vec4& c, ViewportTransform const& v) {
+    auto const limited = [](float x, float limit) { return x > limit ? limit : x < -limit ? -limit : x; };
+    c.w = c.w < min_w ? min_w : c.w;
+    c.x = limited(c.x, v.guard_x * c.w);
+    c.y = limited(c.y, v.guard_y * c.w);
+}
+
 }  // namespace
 
 ViewportTransform make_viewport(Rect const& viewport, bool clip_depth) noexcept {
@@ -87,6 +96,7 @@ ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners, ViewportTran
     // triangles, whatever their third corners are.
     for (int plane = 0; plane < 7 && polygon.count != 0; ++plane)
         if (viewport.clip_depth || (plane != 1 && plane != 2)) polygon = cut_polygon(polygon, plane, viewport);
+    for (int i = 0; i < polygon.count; ++i) settle(polygon.corner[static_cast<std::size_t>(i)], viewport);
     return polygon;
 }
 
