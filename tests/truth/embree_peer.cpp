@@ -71,21 +71,23 @@ RTCRay ray_to_light(pipeline::Frame const& frame, math::vec3 const& from) {
 
 }  // namespace
 
-std::vector<std::uint8_t> embree_lit(pipeline::Frame const& frame) {
+std::vector<std::uint32_t> embree_blockers(pipeline::Frame const& frame) {
     Device const device(rtcNewDevice(nullptr));
     if (!device) throw std::runtime_error("Embree gives no device");
     Scene const scene = build(device, *frame.geometry);
     Context context{};
     rtcInitIntersectContext(&context.base);
     context.base.filter = &skip_own;
-    std::vector<std::uint8_t> lit(frame.samples.size());
-    for (std::size_t i = 0; i < lit.size(); ++i) {
+    std::vector<std::uint32_t> blocker(frame.samples.size());
+    for (std::size_t i = 0; i < blocker.size(); ++i) {
         context.own_triangle = frame.samples.triangle[i];
-        RTCRay ray = ray_to_light(frame, frame.samples.position[i]);
-        rtcOccluded1(scene.get(), &context.base, &ray);
-        lit[i] = ray.tfar >= 0.0F ? 1 : 0;
+        RTCRayHit query{};
+        query.ray = ray_to_light(frame, frame.samples.position[i]);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene.get(), &context.base, &query);
+        blocker[i] = query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? no_blocker : query.hit.primID;
     }
-    return lit;
+    return blocker;
 }
 
 }  // namespace truth

@@ -8,10 +8,13 @@
 
 namespace truth {
 
-/// Per sample of the frame: 1 if Embree finds nothing between it and the light, 0 if it does. Embree is asked about the
-/// open segment to a point light, or the ray toward a directional one; the sample's own triangle is filtered out.
+inline constexpr std::uint32_t no_blocker = ~0U;
+
+/// Per sample of the frame: the triangle that Embree finds between it and the light, or `no_blocker`. Embree is asked
+/// about the open segment to a point light, or the ray toward a directional one; the sample's own triangle is filtered
+/// out.
 ///
 /// Throws std::runtime_error when Embree fails.
-[[nodiscard]] std::vector<std::uint8_t> embree_lit(gnomon::pipeline::Frame const& frame);
+[[nodiscard]] std::vector<std::uint32_t> embree_blockers(gnomon::pipeline::Frame const& frame);
 
 }  // namespace truth
