@@ -43,7 +43,8 @@ Bytes png_from(Picture const& picture) {
         auto const* first = static_cast<unsigned char const*>(data);
         static_cast<Bytes*>(context)->insert(static_cast<Bytes*>(context)->end(), first, first + size);
     };
-    stbi_write_png_to_func(append, &png, picture.size_px.x, picture.size_px.y, picture.channels, picture.pixels.data(), 0);
+    stbi_write_png_to_func(append, &png, picture.size_px.x, picture.size_px.y, picture.channels, picture.pixels.data(),
+                           0);
     return png;
 }
 

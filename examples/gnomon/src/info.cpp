@@ -9,10 +9,10 @@
 #include <gnomon/math/vec.hpp>
 #include <gnomon/pipeline/technique.hpp>
 
-#include <CLI/Version.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/version.h>
+#include <CLI/Version.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 
@@ -21,8 +21,7 @@ namespace gnomon::command {
 namespace {
 
 std::string range_of(pipeline::ParamInfo const& param) {
-    if (!param.choices.empty())
-        return join(std::vector<std::string>(param.choices.begin(), param.choices.end()), "|");
+    if (!param.choices.empty()) return join(std::vector<std::string>(param.choices.begin(), param.choices.end()), "|");
     return fmt::format("{:g} to {:g}", param.min, param.max);
 }
 
@@ -40,12 +39,13 @@ std::string techniques_text() {
 }
 
 std::string packages_text() {
-    std::string const json = fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                         NLOHMANN_JSON_VERSION_PATCH);
+    std::string const json =
+        fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
     std::string const format = fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
-    std::string const glm = fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH,
-                                        GLM_VERSION_REVISION);
-    return fmt::format("GLM {}, oneTBB {}, CLI11 {}, fmt {}, nlohmann-json {}", glm, TBB_VERSION_STRING, CLI11_VERSION, format, json);
+    std::string const glm =
+        fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, GLM_VERSION_REVISION);
+    return fmt::format("GLM {}, oneTBB {}, CLI11 {}, fmt {}, nlohmann-json {}", glm, TBB_VERSION_STRING, CLI11_VERSION,
+                       format, json);
 }
 
 }  // namespace
@@ -61,8 +61,8 @@ Outcome<core::Done> show_info() {
         "compiler   {}, {}\n"
         "packages   {}\n"
         "backends   cpu\n\n{}",
-        GNOMON_VERSION, machine.cpu, machine.logical_cores, machine.simd, machine.system, machine.compiler, machine.build,
-        packages_text(), techniques_text());
+        GNOMON_VERSION, machine.cpu, machine.logical_cores, machine.simd, machine.system, machine.compiler,
+        machine.build, packages_text(), techniques_text());
     return print(text);
 }
 

@@ -52,8 +52,8 @@ std::string short_name(std::string const& path) {
 Outcome<LoadedScene> load_file(SceneOptions const& options) {
     std::string const& path = options.config.name;
     if (options.tuned_by)
-        return usage_error(fmt::format("{}: {} is a file, and only built-in scenes take this; leave it out",
-                                       *options.tuned_by, path));
+        return usage_error(
+            fmt::format("{}: {} is a file, and only built-in scenes take this; leave it out", *options.tuned_by, path));
     auto loaded = scene::load_gltf(path);
     if (!loaded) return failure(loaded.failure().message);
     return LoadedScene{*std::move(loaded), short_name(path), false};
@@ -71,12 +71,14 @@ std::vector<std::string> names_of(auto const& things) {
 }
 
 /// No camera or light of this name: because the file's was left out, or because there never was one.
-core::Failure<Exit> not_found(std::string const& option, std::string const& wanted, auto const& things, scene::Notes const& notes) {
+core::Failure<Exit> not_found(std::string const& option, std::string const& wanted, auto const& things,
+                              scene::Notes const& notes) {
     for (std::string const& warning : notes.warnings)
         if (warning.find('\'' + wanted + '\'') != std::string::npos)
             return failure(fmt::format("{} {}: {}; mend the file or choose another", option, wanted,
                                        warning.substr(0, warning.find_last_not_of('.') + 1)));
-    return usage_error(fmt::format("{} {}: the scene has none of this name; {}", option, wanted, suggestion(wanted, names_of(things))));
+    return usage_error(fmt::format("{} {}: the scene has none of this name; {}", option, wanted,
+                                   suggestion(wanted, names_of(things))));
 }
 
 /// Where the thing of this name stands, or of this number counted from 1; a name goes first.
@@ -93,7 +95,8 @@ Outcome<Described<math::View>> with_range(math::View view, std::string text, Vie
     if (options.near_m) view.near_m = *options.near_m;
     if (options.far_m) view.far_m = *options.far_m;
     if (!(view.near_m < view.far_m))
-        return usage_error(fmt::format("--near {:g} and --far {:g} m: near must be less than far", view.near_m, view.far_m));
+        return usage_error(
+            fmt::format("--near {:g} and --far {:g} m: near must be less than far", view.near_m, view.far_m));
     if (options.near_m) text += fmt::format(" --near {}", view.near_m);
     if (options.far_m) text += fmt::format(" --far {}", view.far_m);
     return Described<math::View>{view, text + fmt::format(" --size {}x{}", view.size_px.x, view.size_px.y)};
@@ -102,18 +105,27 @@ Outcome<Described<math::View>> with_range(math::View view, std::string text, Vie
 Outcome<Described<math::View>> view_at(math::PerspectiveConfig const& config, ViewOptions const& options) {
     auto view = math::make_perspective(config);
     if (!view) return usage_error(view.failure().message);
-    return with_range(*view, fmt::format("--eye {} --look {} --fov {:.4g}", text_of(config.eye_m), text_of(config.target_m),
-                                         config.fov_y_rad * 180.0 / pi), options);
+    return with_range(*view,
+                      fmt::format("--eye {} --look {} --fov {:.4g}", text_of(config.eye_m), text_of(config.target_m),
+                                  config.fov_y_rad * 180.0 / pi),
+                      options);
 }
 
-Outcome<Described<math::View>> view_of_camera(std::vector<scene::Camera> const& cameras, std::size_t index, ViewOptions const& options) {
+Outcome<Described<math::View>> view_of_camera(std::vector<scene::Camera> const& cameras, std::size_t index,
+                                              ViewOptions const& options) {
     scene::Camera ranged = cameras[index];  // the user's range may mend the file's
     if (options.near_m) ranged.near_m = *options.near_m;
     if (options.far_m) ranged.far_m = *options.far_m;
     auto view = scene::make_view(ranged, options.size_px);
-    if (!view) return failure(fmt::format("camera '{}': {}; give --near and --far, or --eye and --look", name_of(cameras, index),
-                                          view.failure().message));
+    if (!view)
+        return failure(fmt::format("camera '{}': {}; give --near and --far, or --eye and --look",
+                                   name_of(cameras, index), view.failure().message));
     return with_range(*view, "--camera " + name_of(cameras, index), options);
+}
+
+/// The same direction with its largest component 1, so that neither 1e-300 nor 1e300 is lost in a float.
+math::dvec3 of_moderate_length(math::dvec3 const& direction) {
+    return direction / std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
 }
 
 /// Where the given --eye and --look leave the near plane open: close enough for what is looked at.
@@ -151,7 +163,8 @@ Outcome<LoadedScene> load_scene(SceneOptions const& options) {
     if (looks_like_path(name)) return load_file(options);
     std::vector<std::string> known;
     for (scene::ProceduralInfo const& info : scene::procedural_scenes()) known.emplace_back(info.name);
-    return usage_error(fmt::format("scene '{}': no file and no built-in scene of this name; {}", name, suggestion(name, known)));
+    return usage_error(
+        fmt::format("scene '{}': no file and no built-in scene of this name; {}", name, suggestion(name, known)));
 }
 
 Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedScene const& loaded,
@@ -178,7 +191,7 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
 Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene) {
     scene::Light light;
     if (options.sun) {
-        light.direction = *options.sun;
+        light.direction = of_moderate_length(*options.sun);
         return Described<scene::Light>{light, "--sun " + text_of(*options.sun)};
     }
     if (options.point) {

@@ -22,9 +22,8 @@ Json ms_json(pipeline::RunReport const& run) {
 }
 
 Json error_json(pipeline::Measures const& error) {
-    Json const edge = {{"mean", number(error.edge_px.mean)},
-                       {"p99", number(error.edge_px.p99)},
-                       {"max", number(error.edge_px.max)}};
+    Json const edge = {
+        {"mean", number(error.edge_px.mean)}, {"p99", number(error.edge_px.p99)}, {"max", number(error.edge_px.max)}};
     return {{"samples", error.samples},
             {"wrong", error.wrong},
             {"wrong_fraction", number(error.wrong_fraction)},
@@ -33,7 +32,8 @@ Json error_json(pipeline::Measures const& error) {
             {"acne", error.acne},
             {"detachment", error.detachment},
             {"edge_px", edge},
-            {"visibility_error", {{"mean", number(error.visibility_error_mean)}, {"p99", number(error.visibility_error_p99)}}},
+            {"visibility_error",
+             {{"mean", number(error.visibility_error_mean)}, {"p99", number(error.visibility_error_p99)}}},
             {"radiance_error", number(error.radiance_error)}};
 }
 
@@ -74,16 +74,15 @@ Json run_json(Report const& report, Run const& run) {
 
 std::string json_text(Report const& report, std::vector<std::string> const& files) {
     Machine const& machine = report.machine;
-    Json document = {
-        {"gnomon", {{"version", GNOMON_VERSION}, {"command", report.command}, {"files", files}}},
-        {"machine",
-         {{"cpu", machine.cpu},
-          {"logical_cores", machine.logical_cores},
-          {"simd", machine.simd},
-          {"system", machine.system},
-          {"compiler", machine.compiler},
-          {"build", machine.build}}},
-        {"runs", Json::array()}};
+    Json document = {{"gnomon", {{"version", GNOMON_VERSION}, {"command", report.command}, {"files", files}}},
+                     {"machine",
+                      {{"cpu", machine.cpu},
+                       {"logical_cores", machine.logical_cores},
+                       {"simd", machine.simd},
+                       {"system", machine.system},
+                       {"compiler", machine.compiler},
+                       {"build", machine.build}}},
+                     {"runs", Json::array()}};
     for (Run const& run : report.runs) document["runs"].push_back(run_json(report, run));
     // File and camera names may hold any bytes: what is not UTF-8 is replaced, never thrown over.
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

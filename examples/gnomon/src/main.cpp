@@ -18,8 +18,9 @@ std::string as_typed(int argc, char const* const* argv) {
     std::string text = "gnomon";
     for (int i = 1; i < argc; ++i) {
         std::string const word = argv[i];
-        bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                                   "0123456789-_=+.,:/@%") == std::string::npos;
+        bool const plain = !word.empty() && word.find_first_not_of(
+                                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789-_=+.,:/@%") == std::string::npos;
         std::string quoted = "'";
         for (char const c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
         text += ' ' + (plain ? word : quoted + "'");

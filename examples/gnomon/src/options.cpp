@@ -13,8 +13,7 @@ namespace gnomon::command {
 
 namespace {
 
-constexpr double anything = std::numeric_limits<double>::max();
-constexpr RealRange any_metres{-anything, anything, "m"};
+constexpr RealRange any_metres{-farthest_m, farthest_m, "m"};
 constexpr RealRange positive_metres{1e-9, 1e12, "m"};
 constexpr IntegerRange thread_range{1, 1024};
 constexpr IntegerRange repeat_range{1, 1000};
@@ -24,7 +23,8 @@ constexpr IntegerRange seed_range{0, std::numeric_limits<std::uint32_t>::max()};
 
 /// Reads `text`, if given, into `target`; the first failure stays in `error`.
 template <class T, class Target, class Read>
-void take(std::optional<std::string> const& text, Target& target, std::optional<core::Failure<Exit>>& error, Read read) {
+void take(std::optional<std::string> const& text, Target& target, std::optional<core::Failure<Exit>>& error,
+          Read read) {
     if (!text || error) return;
     Outcome<T> value = read(*text);
     if (value)
@@ -37,7 +37,8 @@ Outcome<SceneOptions> scene_options(RawOptions const& raw) {
     SceneOptions options;
     options.config.name = raw.scene;
     std::optional<core::Failure<Exit>> error;
-    auto const integer = [&](char const* name, std::optional<std::string> const& text, auto& target, IntegerRange range) {
+    auto const integer = [&](char const* name, std::optional<std::string> const& text, auto& target,
+                             IntegerRange range) {
         if (text && !options.tuned_by) options.tuned_by = name;
         take<std::int64_t>(text, target, error, [&](std::string const& t) { return read_integer(name, t, range); });
     };
@@ -55,7 +56,7 @@ Outcome<ViewOptions> view_options(RawOptions const& raw) {
     ViewOptions view;
     std::optional<core::Failure<Exit>> error;
     auto const vector = [&](char const* name, auto const& text, auto& target) {
-        take<math::dvec3>(text, target, error, [&](std::string const& t) { return read_vector(name, t); });
+        take<math::dvec3>(text, target, error, [&](std::string const& t) { return read_vector(name, t, farthest_m); });
     };
     auto const real = [&](char const* name, auto const& text, auto& target, RealRange const& range) {
         take<double>(text, target, error, [&](std::string const& t) { return read_real(name, t, range); });
@@ -73,9 +74,11 @@ Outcome<ViewOptions> view_options(RawOptions const& raw) {
                                        raw.eye ? *raw.eye : *raw.look));
     if (raw.camera && raw.eye)
         return usage_error(fmt::format("--camera {} and --eye {}: give one of them", *raw.camera, *raw.eye));
-    if (raw.fov && !raw.eye) return usage_error(fmt::format("--fov {}: it goes with --eye and --look; add them", *raw.fov));
+    if (raw.fov && !raw.eye)
+        return usage_error(fmt::format("--fov {}: it goes with --eye and --look; add them", *raw.fov));
     if (view.eye_m && *view.eye_m == *view.look_m)
-        return usage_error(fmt::format("--eye {} and --look {}: they are the same point; move one of them", *raw.eye, *raw.look));
+        return usage_error(
+            fmt::format("--eye {} and --look {}: they are the same point; move one of them", *raw.eye, *raw.look));
     if (view.near_m && view.far_m && *view.near_m >= *view.far_m)
         return usage_error(fmt::format("--near {} and --far {}: near must be less than far", *raw.near, *raw.far));
     return view;
@@ -86,7 +89,7 @@ Outcome<PointOption> read_point(std::string const& text) {
     if (parts.size() != 3 && parts.size() != 4)
         return usage_error(fmt::format("--point {}: give x,y,z or x,y,z,range in metres", text));
     PointOption point;
-    auto position = read_vector("--point", parts[0] + ',' + parts[1] + ',' + parts[2]);
+    auto position = read_vector("--point", parts[0] + ',' + parts[1] + ',' + parts[2], farthest_m);
     if (!position) return std::move(position).failure();
     point.position_m = *position;
     if (parts.size() == 3) return point;
@@ -108,8 +111,10 @@ Outcome<LightOptions> light_options(RawOptions const& raw) {
     take<PointOption>(raw.point, light.point, error, read_point);
     if (error) return *error;
     if (light.sun && *light.sun == math::dvec3(0.0))
-        return usage_error(fmt::format("--sun {}: a direction of zero length points nowhere; give the way light travels, "
-                                       "such as --sun -0.45,-0.8,-0.4", *raw.sun));
+        return usage_error(
+            fmt::format("--sun {}: a direction of zero length points nowhere; give the way light travels, "
+                        "such as --sun -0.45,-0.8,-0.4",
+                        *raw.sun));
     light.name = raw.light;
     return light;
 }
@@ -119,10 +124,12 @@ Outcome<ParamOption> read_param(std::string const& text) {
     std::size_t const dot = text.find('.');
     bool const whole = equals != std::string::npos && dot != std::string::npos && dot > 0 && dot + 1 < equals;
     if (!whole)
-        return usage_error(fmt::format("--param {}: give technique.name=value, such as --param shadow-map.resolution=2048", text));
+        return usage_error(
+            fmt::format("--param {}: give technique.name=value, such as --param shadow-map.resolution=2048", text));
     ParamOption param{text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), split(text.substr(equals + 1), ',')};
     if (std::find(param.values.begin(), param.values.end(), "") != param.values.end())
-        return usage_error(fmt::format("--param {}: a value is missing after '=' or ','; give one or leave the comma out", text));
+        return usage_error(
+            fmt::format("--param {}: a value is missing after '=' or ','; give one or leave the comma out", text));
     return param;
 }
 
@@ -173,12 +180,13 @@ Outcome<Command> scenes_options(RawOptions const& raw) {
     auto scene = scene_options(raw);
     if (!scene) return std::move(scene).failure();
     if (raw.scene.empty() && scene->tuned_by)
-        return usage_error(fmt::format("{}: name the scene that it is for, such as gnomon scenes city", *scene->tuned_by));
+        return usage_error(
+            fmt::format("{}: name the scene that it is for, such as gnomon scenes city", *scene->tuned_by));
     if (!raw.scene.empty()) options.scene = *std::move(scene);
     options.write = raw.write;
     if (raw.write && !options.scene)
-        return usage_error(fmt::format("--write {}: name the scene to write, such as gnomon scenes city --write {}", *raw.write,
-                                       *raw.write));
+        return usage_error(fmt::format("--write {}: name the scene to write, such as gnomon scenes city --write {}",
+                                       *raw.write, *raw.write));
     return Command{std::move(options)};
 }
 

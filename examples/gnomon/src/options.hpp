@@ -14,8 +14,8 @@
 namespace gnomon::command {
 
 struct SceneOptions {
-    scene::ProceduralConfig config;         ///< `name` is the built-in scene or the path, as given.
-    std::optional<std::string> tuned_by;    ///< The first option given that only a built-in scene can take.
+    scene::ProceduralConfig config;       ///< `name` is the built-in scene or the path, as given.
+    std::optional<std::string> tuned_by;  ///< The first option given that only a built-in scene can take.
 };
 
 struct ViewOptions {

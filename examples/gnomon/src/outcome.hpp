@@ -17,7 +17,9 @@ enum class Exit {
 template <class T>
 using Outcome = core::Result<T, Exit>;
 
-[[nodiscard]] inline core::Failure<Exit> usage_error(std::string sentence) { return {Exit::usage, std::move(sentence)}; }
+[[nodiscard]] inline core::Failure<Exit> usage_error(std::string sentence) {
+    return {Exit::usage, std::move(sentence)};
+}
 [[nodiscard]] inline core::Failure<Exit> failure(std::string sentence) { return {Exit::failed, std::move(sentence)}; }
 
 }  // namespace gnomon::command

@@ -73,7 +73,8 @@ Outcome<core::Done> check_parent(std::string const& option, std::string const& p
     std::error_code error;
     fs::path const parent = target.parent_path();
     if (!fs::exists(parent, error))
-        return failure(fmt::format("{} {}: the folder {} does not exist; make it first", option, path, parent.string()));
+        return failure(
+            fmt::format("{} {}: the folder {} does not exist; make it first", option, path, parent.string()));
     if (!fs::is_directory(parent, error))
         return failure(fmt::format("{} {}: {} is not a folder; give another place", option, path, parent.string()));
     return core::Done{};
@@ -91,11 +92,14 @@ Outcome<core::Done> check_folder(std::string const& option, std::string const& p
         if (!fs::is_directory(target, error))
             return failure(fmt::format("{} {}: this is a file; give the name of a folder", option, path));
         if (fs::equivalent(target, fs::current_path(), error))
-            return failure(fmt::format("{} {}: this is the folder you stand in; give the name of a new one", option, path));
+            return failure(
+                fmt::format("{} {}: this is the folder you stand in; give the name of a new one", option, path));
         std::string const foreign = foreign_entry(target);
         if (!foreign.empty())
-            return failure(fmt::format("{} {}: the folder holds '{}', which gnomon did not write; give another folder or empty "
-                                       "this one", option, path, foreign));
+            return failure(
+                fmt::format("{} {}: the folder holds '{}', which gnomon did not write; give another folder or empty "
+                            "this one",
+                            option, path, foreign));
     }
     fs::path const probe = temporary_beside(target, "probe");
     bool const made = fs::create_directory(probe, error);

@@ -43,7 +43,9 @@ std::vector<Settings> combinations(std::string const& technique, std::vector<Par
 }
 
 bool same_values(PlannedRun const& a, PlannedRun const& b) {
-    auto const equal = [](pipeline::Params::Value const& x, pipeline::Params::Value const& y) { return x.text == y.text; };
+    auto const equal = [](pipeline::Params::Value const& x, pipeline::Params::Value const& y) {
+        return x.text == y.text;
+    };
     return a.technique == b.technique && std::equal(a.params.values.begin(), a.params.values.end(),
                                                     b.params.values.begin(), b.params.values.end(), equal);
 }
@@ -67,8 +69,8 @@ Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std:
         if (auto found = pipeline::find_technique(param.technique); !found)
             return usage_error(whole + ": " + found.failure().message);
         if (std::find(techniques.begin(), techniques.end(), param.technique) == techniques.end())
-            return usage_error(fmt::format("{}: {} is not among the techniques to run; add it to --techniques {}", whole,
-                                           param.technique, join(techniques, ",")));
+            return usage_error(fmt::format("{}: {} is not among the techniques to run; add it to --techniques {}",
+                                           whole, param.technique, join(techniques, ",")));
         for (std::size_t j = 0; j < i; ++j)
             if (params[j].technique == param.technique && params[j].name == param.name)
                 return usage_error(fmt::format("{}: given twice; put all its values into one list", whole));

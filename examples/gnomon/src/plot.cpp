@@ -56,7 +56,8 @@ void grid(std::string& svg, LogAxis const& x, LogAxis const& y) {
     }
     for (double const value : y.ticks()) {
         double const at = log_floor_y - y.fraction(value) * (log_floor_y - top);
-        fmt::format_to(out, "<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/>", left, width - right, at);
+        fmt::format_to(out, "<line class='grid' x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}'/>", left, width - right,
+                       at);
         fmt::format_to(out, "<text class='tick' x='{}' y='{:.1f}' text-anchor='end'>{}</text>\n", left - 8.0, at + 4.0,
                        tick_text(value));
     }
@@ -70,10 +71,13 @@ void grid(std::string& svg, LogAxis const& x, LogAxis const& y) {
 
 void axis_titles(std::string& svg) {
     auto out = std::back_inserter(svg);
-    fmt::format_to(out, "<text class='axis' x='{}' y='{}' text-anchor='middle'>time for the shadows, ms (median)</text>",
+    fmt::format_to(out,
+                   "<text class='axis' x='{}' y='{}' text-anchor='middle'>time for the shadows, ms (median)</text>",
                    (left + width - right) / 2, height - 14.0);
-    fmt::format_to(out, "<text class='axis' transform='translate(18 {}) rotate(-90)' text-anchor='middle'>"
-                        "wrong samples, %</text>\n", (top + floor_y) / 2);
+    fmt::format_to(out,
+                   "<text class='axis' transform='translate(18 {}) rotate(-90)' text-anchor='middle'>"
+                   "wrong samples, %</text>\n",
+                   (top + floor_y) / 2);
 }
 
 /// Marks on the upper edge: how many times as fast as `ray`.
@@ -115,8 +119,12 @@ void label(std::string& svg, PlotPoint const& point, Placed const& at, std::vect
         char const* anchor;
         double shift;
     };
-    std::array<Spot, 6> const spots = {{{11, 4, "start", 0}, {-11, 4, "end", -1}, {0, -11, "middle", -0.5},
-                                        {0, 19, "middle", -0.5}, {9, -10, "start", 0}, {9, 18, "start", 0}}};
+    std::array<Spot, 6> const spots = {{{11, 4, "start", 0},
+                                        {-11, 4, "end", -1},
+                                        {0, -11, "middle", -0.5},
+                                        {0, 19, "middle", -0.5},
+                                        {9, -10, "start", 0},
+                                        {9, 18, "start", 0}}};
     Spot best = spots[0];
     int fewest = std::numeric_limits<int>::max();
     Box best_box{};
@@ -198,8 +206,8 @@ std::string plot_svg(std::span<PlotPoint const> points, std::optional<double> ra
     }
     LogAxis const x = axis_over(times);
     LogAxis const y = axis_over(errors);
-    std::string svg = fmt::format("<svg class='plot' viewBox='0 0 {} {}' role='img' aria-label='Speed against error'>\n",
-                                  width, height);
+    std::string svg = fmt::format(
+        "<svg class='plot' viewBox='0 0 {} {}' role='img' aria-label='Speed against error'>\n", width, height);
     grid(svg, x, y);
     axis_titles(svg);
     if (ray_ms && *ray_ms > 0.0) speed_axis(svg, x, *ray_ms);
@@ -214,9 +222,11 @@ std::string plot_svg(std::span<PlotPoint const> points, std::optional<double> ra
     }
     series_lines(svg, points, at);
     for (std::size_t i = 0; i < points.size(); ++i)
-        fmt::format_to(std::back_inserter(svg), "<circle class='dot s{}' cx='{:.1f}' cy='{:.1f}' r='6'><title>{}: {:.4g} ms, "
-                       "{:.4g} % wrong</title></circle>\n", series_index(points, points[i].series) % 6, at[i].x, at[i].y,
-                       escaped(points[i].label), points[i].ms, points[i].wrong_fraction * 100.0);
+        fmt::format_to(std::back_inserter(svg),
+                       "<circle class='dot s{}' cx='{:.1f}' cy='{:.1f}' r='6'><title>{}: {:.4g} ms, "
+                       "{:.4g} % wrong</title></circle>\n",
+                       series_index(points, points[i].series) % 6, at[i].x, at[i].y, escaped(points[i].label),
+                       points[i].ms, points[i].wrong_fraction * 100.0);
     for (std::size_t i = 0; i < points.size(); ++i) label(svg, points[i], at[i], taken);
     return svg + "</svg>\n";
 }

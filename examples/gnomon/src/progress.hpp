@@ -6,7 +6,7 @@
 namespace gnomon::command {
 
 class ProgressBar {
-public:
+  public:
     /// `shown`: standard error is a terminal.
     explicit ProgressBar(bool shown) : shown_(shown) {}
     ~ProgressBar() { clear(); }
@@ -17,7 +17,7 @@ public:
     void show(int done, int total, std::string_view what);
     void clear();
 
-private:
+  private:
     bool shown_;
     bool drawn_ = false;
 };

@@ -2,8 +2,8 @@
 
 #include "values.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -49,9 +49,14 @@ void add_view_and_light(CLI::App& app, RawOptions& raw) {
 void add_run(CLI::App& app, RawOptions& raw) {
     std::string const runs = "Runs";
     app.add_option("--techniques,--technique", raw.techniques, "which to run; shadow-map,ray (render: shadow-map)")
-        ->delimiter(',')->allow_extra_args(false)->type_name("A,B")->group(runs);
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B")
+        ->group(runs);
     app.add_option("--param", raw.params, "a technique's parameter; a list makes a run of each value; repeatable")
-        ->allow_extra_args(false)->type_name("TECHNIQUE.NAME=V[,V]")->group(runs);
+        ->allow_extra_args(false)
+        ->type_name("TECHNIQUE.NAME=V[,V]")
+        ->group(runs);
     auto const add = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type,
                          char const* group) { app.add_option(name, value, text)->type_name(type)->group(group); };
     add("--backend", raw.backend, "cpu", "NAME", "Runs");
@@ -76,14 +81,16 @@ std::string sentence_for(CLI::ParseError const& error, CLI::App const& app, std:
     if (dynamic_cast<CLI::ExtrasError const*>(&error) != nullptr) {
         std::size_t const colon = what.find(": ");
         std::vector<std::string> const words = split(colon == std::string::npos ? what : what.substr(colon + 2), ' ');
-        auto const option = std::find_if(words.begin(), words.end(), [](std::string const& w) { return w.starts_with("-"); });
+        auto const option =
+            std::find_if(words.begin(), words.end(), [](std::string const& w) { return w.starts_with("-"); });
         std::string const first = option != words.end() ? *option : words.front();
         auto const near = closest(split(first, '=').front(), option_names(app));
         return fmt::format("{}: gnomon {} does not take this; {}{}", first, verb,
                            near ? fmt::format("did you mean {}? ", *near) : "", see);
     }
     if (dynamic_cast<CLI::RequiredError const*>(&error) != nullptr)
-        return fmt::format("gnomon {} needs a scene: a built-in name (`gnomon scenes` lists them) or a .gltf/.glb file", verb);
+        return fmt::format("gnomon {} needs a scene: a built-in name (`gnomon scenes` lists them) or a .gltf/.glb file",
+                           verb);
     if (dynamic_cast<CLI::ArgumentMismatch const*>(&error) != nullptr)
         return fmt::format("{}: give it once, with one value; {}", split(what, ':').front(), see);
     std::replace(what.begin(), what.end(), '\n', ' ');
@@ -99,7 +106,9 @@ Outcome<RawCommand> unknown_verb(std::string const& verb) {
 Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     CLI::App app("Shadows of a scene, drawn, measured against exact truth, and timed.", "gnomon");
     app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
-    app.footer("Exit codes: 0 done, 1 failed, 2 bad usage.\nExample: gnomon compare city --param shadow-map.resolution=512,2048 --out city");
+    app.footer(
+        "Exit codes: 0 done, 1 failed, 2 bad usage.\nExample: gnomon compare city --param "
+        "shadow-map.resolution=512,2048 --out city");
     RawCommand raw;
     auto* render = app.add_subcommand("render", "Draw pictures of a scene with shadows");
     auto* compare = app.add_subcommand("compare", "Measure techniques against exact shadows: a page, pictures, JSON");
@@ -115,7 +124,8 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     std::string const first = argc > 1 ? argv[1] : "";
     if (argc > 1 && !first.starts_with("-") && std::find(verbs.begin(), verbs.end(), first) == verbs.end())
         return unknown_verb(first);
-    if (argc <= 1) return usage_error("gnomon needs a verb: render, compare, scenes or info; `gnomon --help` says more");
+    if (argc <= 1)
+        return usage_error("gnomon needs a verb: render, compare, scenes or info; `gnomon --help` says more");
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& error) {

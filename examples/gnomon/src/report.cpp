@@ -56,7 +56,7 @@ std::string compiler_name() {
 
 Machine this_machine() {
     unsigned const cores = std::thread::hardware_concurrency();
-    return {cpu_name(), cores == 0 ? 1 : static_cast<int>(cores), simd_names(), system_name(), compiler_name(),
+    return {cpu_name(),       cores == 0 ? 1 : static_cast<int>(cores), simd_names(), system_name(), compiler_name(),
             GNOMON_BUILD_TYPE};
 }
 

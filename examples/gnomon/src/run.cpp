@@ -72,18 +72,21 @@ std::string words_of(std::string_view name) {
     return words;
 }
 
-std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipeline::Frame const& frame, Report const& report) {
+std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipeline::Frame const& frame,
+                           Report const& report) {
     scene::Scene const& scene = inputs.loaded.scene;
     bool const from_scene = inputs.light.text.starts_with("--light");
-    double const lit = report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
+    double const lit =
+        report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
     std::vector<Fact> facts = {
         {"scene", report.scene},
-        {"triangles", fmt::format("{} drawn, {} stored", grouped(report.triangles), grouped(scene::count_unique_triangles(scene)))},
+        {"triangles",
+         fmt::format("{} drawn, {} stored", grouped(report.triangles), grouped(scene::count_unique_triangles(scene)))},
         {"view", report.view},
         {"light", fmt::format("{} ({}{})", report.light, pipeline::name_of(inputs.light.value.kind),
                               from_scene ? fmt::format(", the scene has {}", scene.lights.size()) : "")},
-        {"samples", fmt::format("{} of {} pixels show a surface; {:.1f} % of them are truly lit", grouped(report.samples),
-                                grouped(pipeline::pixel_count(report.size_px)), lit * 100.0)}};
+        {"samples", fmt::format("{} of {} pixels show a surface; {:.1f} % of them are truly lit",
+                                grouped(report.samples), grouped(pipeline::pixel_count(report.size_px)), lit * 100.0)}};
     if (std::string const missing = left_out(inputs, frame); !missing.empty()) facts.push_back({"left out", missing});
     for (std::string const& warning : scene.notes.warnings) facts.push_back({"note", warning});
     std::string truth;
@@ -93,7 +96,8 @@ std::vector<Fact> facts_of(RunOptions const& options, Inputs const& inputs, pipe
     facts.push_back({"machine", fmt::format("{}, {} threads used of {}", report.machine.cpu, options.threads,
                                             report.machine.logical_cores)});
     facts.push_back({"SIMD", report.machine.simd});
-    facts.push_back({"build", fmt::format("{}, {}, {}", report.machine.compiler, report.machine.build, report.machine.system)});
+    facts.push_back(
+        {"build", fmt::format("{}, {}, {}", report.machine.compiler, report.machine.build, report.machine.system)});
     return facts;
 }
 
@@ -194,7 +198,8 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     auto inputs = gather(options);
     if (!inputs) return std::move(inputs).failure();
     bar.show(1, steps, "tracing the exact shadows");
-    auto frame = pipeline::make_frame(inputs->loaded.scene, inputs->geometry, inputs->view.value, inputs->light.value, executor);
+    auto frame =
+        pipeline::make_frame(inputs->loaded.scene, inputs->geometry, inputs->view.value, inputs->light.value, executor);
     if (!frame) return exit_for(frame.failure());
     std::vector<pipeline::RunRequest> requests;
     for (PlannedRun const& planned : plan) requests.push_back({planned.technique, planned.params});
@@ -230,7 +235,8 @@ Outcome<core::Done> run(RunOptions const& options) {
     bar.clear();
     bool const json_to_stdout = options.json && *options.json == "-";
     if (json_to_stdout) {
-        if (auto printed = print(std::string(files.back().bytes.begin(), files.back().bytes.end())); !printed) return printed;
+        if (auto printed = print(std::string(files.back().bytes.begin(), files.back().bytes.end())); !printed)
+            return printed;
     } else if (options.json) {
         if (auto written = write_file(*options.json, files.back().bytes); !written) return written;
     }

@@ -67,8 +67,8 @@ Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options) {
     if (!options.write) return print(facts_about(*loaded));
     auto written = scene::write_gltf(loaded->scene, *options.write);
     if (!written) return failure(written.failure().message);
-    return print(fmt::format("{}: {} triangles written to {}\n", loaded->text, grouped(scene::count_triangles(loaded->scene)),
-                             *options.write));
+    return print(fmt::format("{}: {} triangles written to {}\n", loaded->text,
+                             grouped(scene::count_triangles(loaded->scene)), *options.write));
 }
 
 }  // namespace gnomon::command

@@ -37,7 +37,7 @@ std::string aligned(std::vector<std::vector<std::string>> const& rows, TableLook
         std::string line;
         for (std::size_t i = 0; i < rows[r].size(); ++i)
             line += (i == 0 ? "" : "  ") + (i < look.left ? fmt::format("{:<{}}", rows[r][i], widths[i])
-                                                    : fmt::format("{:>{}}", rows[r][i], widths[i]));
+                                                          : fmt::format("{:>{}}", rows[r][i], widths[i]));
         line.erase(line.find_last_not_of(' ') + 1);
         text += look.bold_head && r == 0 ? "\x1b[1m" + line + "\x1b[0m\n" : line + '\n';
     }
@@ -45,10 +45,12 @@ std::string aligned(std::vector<std::vector<std::string>> const& rows, TableLook
 }
 
 std::string table_text(Report const& report, bool styled) {
-    double const lit = report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
-    std::string text = fmt::format("{}: {} triangles, {} samples in {}x{} px, {:.1f} % truly lit, {} threads\n{}   {}\n\n",
-                                   report.scene, grouped(report.triangles), grouped(report.samples), report.size_px.x,
-                                   report.size_px.y, lit * 100.0, report.threads, report.view, report.light);
+    double const lit =
+        report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
+    std::string text =
+        fmt::format("{}: {} triangles, {} samples in {}x{} px, {:.1f} % truly lit, {} threads\n{}   {}\n\n",
+                    report.scene, grouped(report.triangles), grouped(report.samples), report.size_px.x,
+                    report.size_px.y, lit * 100.0, report.threads, report.view, report.light);
     std::vector<std::vector<std::string>> rows = {
         {"run", "wrong %", "false-lit", "false-shadow", "edge px mean", "max", "ms", "speed / ray"}};
     for (Run const& run : report.runs) {

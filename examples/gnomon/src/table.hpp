@@ -16,8 +16,8 @@ namespace gnomon::command {
 [[nodiscard]] std::string figures(double value);
 
 struct TableLook {
-    std::size_t left = 1;     ///< This many columns stand to the left, the others to the right.
-    bool bold_head = false;   ///< For terminals.
+    std::size_t left = 1;    ///< This many columns stand to the left, the others to the right.
+    bool bold_head = false;  ///< For terminals.
 };
 
 /// Columns padded to their widest cell.

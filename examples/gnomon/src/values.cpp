@@ -64,7 +64,8 @@ Outcome<double> read_real(std::string const& option, std::string const& text, Re
     std::string const unit = *range.unit == '\0' ? "" : fmt::format(" ({})", range.unit);
     if (range.low <= std::numeric_limits<double>::lowest() && range.high >= std::numeric_limits<double>::max())
         return usage_error(fmt::format("{} {}: give a finite number{}", option, text, unit));
-    return usage_error(fmt::format("{} {}: give a number from {:g} to {:g}{}", option, text, range.low, range.high, unit));
+    return usage_error(
+        fmt::format("{} {}: give a number from {:g} to {:g}{}", option, text, range.low, range.high, unit));
 }
 
 Outcome<std::int64_t> read_integer(std::string const& option, std::string const& text, IntegerRange range) {
@@ -73,17 +74,20 @@ Outcome<std::int64_t> read_integer(std::string const& option, std::string const&
     return usage_error(fmt::format("{} {}: give a whole number from {} to {}", option, text, range.low, range.high));
 }
 
-Outcome<math::dvec3> read_vector(std::string const& option, std::string const& text) {
+Outcome<math::dvec3> read_vector(std::string const& option, std::string const& text, double limit) {
     std::vector<std::string> const parts = split(text, ',');
     if (parts.size() != 3)
-        return usage_error(fmt::format("{} {}: give three numbers with commas and no blanks, such as {} 1,2.5,-3", option,
-                                       text, option));
+        return usage_error(fmt::format("{} {}: give three numbers with commas and no blanks, such as {} 1,2.5,-3",
+                                       option, text, option));
     math::dvec3 v(0.0);
     for (int axis = 0; axis < 3; ++axis) {
         std::string const& part = parts[static_cast<std::size_t>(axis)];
         std::optional<double> const value = real_from(part);
         if (!value)
             return usage_error(fmt::format("{} {}: '{}' is not a finite number; give x,y,z", option, text, part));
+        if (std::abs(*value) > limit)
+            return usage_error(fmt::format("{} {}: '{}' is too far away; give numbers from {:g} to {:g}", option, text,
+                                           part, -limit, limit));
         v[axis] = *value;
     }
     return v;
@@ -94,11 +98,13 @@ Outcome<math::ivec2> read_size(std::string const& option, std::string const& tex
     auto const width = parts.size() == 2 ? integer_from(parts[0]) : std::nullopt;
     auto const height = parts.size() == 2 ? integer_from(parts[1]) : std::nullopt;
     if (!width || !height)
-        return usage_error(fmt::format("{} {}: give width x height in pixels, such as {} 1024x768", option, text, option));
+        return usage_error(
+            fmt::format("{} {}: give width x height in pixels, such as {} 1024x768", option, text, option));
     bool const in_range = *width >= 1 && *height >= 1 && *width <= largest_side_px && *height <= largest_side_px;
     if (!in_range || *width * *height > most_pixels)
-        return usage_error(fmt::format("{} {}: each side must be from 1 to {} pixels, and the image at most {} million pixels",
-                                       option, text, largest_side_px, most_pixels / 1'000'000));
+        return usage_error(
+            fmt::format("{} {}: each side must be from 1 to {} pixels, and the image at most {} million pixels", option,
+                        text, largest_side_px, most_pixels / 1'000'000));
     return math::ivec2(static_cast<int>(*width), static_cast<int>(*height));
 }
 

@@ -6,6 +6,7 @@
 #include <gnomon/math/vec.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,10 +33,15 @@ struct IntegerRange {
     std::int64_t low;
     std::int64_t high;
 };
-[[nodiscard]] Outcome<std::int64_t> read_integer(std::string const& option, std::string const& text, IntegerRange range);
+[[nodiscard]] Outcome<std::int64_t> read_integer(std::string const& option, std::string const& text,
+                                                 IntegerRange range);
 
-/// "x,y,z", all finite.
-[[nodiscard]] Outcome<math::dvec3> read_vector(std::string const& option, std::string const& text);
+/// "x,y,z", all finite; `limit` bounds each of them.
+[[nodiscard]] Outcome<math::dvec3> read_vector(std::string const& option, std::string const& text,
+                                               double limit = std::numeric_limits<double>::max());
+
+/// How far from the origin, in metres, something may stand.
+inline constexpr double farthest_m = 1e9;
 
 /// "WxH": each from 1 to 16384 pixels, and at most 2^26 pixels together.
 [[nodiscard]] Outcome<math::ivec2> read_size(std::string const& option, std::string const& text);

@@ -83,16 +83,11 @@ TEST_CASE("missing, broken and empty files are failures", "[command][bad-input]"
     write_text(folder / "draco.gltf", demanding_gltf);
     fs::create_directory(folder / "folder.glb");
     std::vector<BadCase> const cases = {
-        {1, "missing.glb", {"render", "missing.glb"}},
-        {1, "no/such/place.gltf", {"compare", "no/such/place.gltf"}},
-        {1, "short.glb", {"render", "short.glb"}},
-        {1, "noise.glb", {"render", "noise.glb"}},
-        {1, "nothing.glb", {"compare", "nothing.glb"}},
-        {1, "text.gltf", {"render", "text.gltf"}},
-        {1, "empty.gltf", {"compare", "empty.gltf"}},
-        {1, "KHR_draco_mesh_compression", {"render", "draco.gltf"}},
-        {1, "folder.glb", {"render", "folder.glb"}},
-        {1, "missing.glb", {"scenes", "missing.glb"}},
+        {1, "missing.glb", {"render", "missing.glb"}},  {1, "no/such/place.gltf", {"compare", "no/such/place.gltf"}},
+        {1, "short.glb", {"render", "short.glb"}},      {1, "noise.glb", {"render", "noise.glb"}},
+        {1, "nothing.glb", {"compare", "nothing.glb"}}, {1, "text.gltf", {"render", "text.gltf"}},
+        {1, "empty.gltf", {"compare", "empty.gltf"}},   {1, "KHR_draco_mesh_compression", {"render", "draco.gltf"}},
+        {1, "folder.glb", {"render", "folder.glb"}},    {1, "missing.glb", {"scenes", "missing.glb"}},
     };
     for (BadCase const& bad : cases) check_refused(folder, bad);
 }

@@ -27,8 +27,9 @@ json results_in(fs::path const& folder) { return json::parse(read_text(folder / 
 TEST_CASE("compare writes a folder that is whole: page, pictures, results", "[command]") {
     TestFolder const folder;
     std::string const scene = write_table(folder);
-    Ended const ended = gnomon_in(folder.path(), {"compare", scene, "--techniques", "shadow-map,ray", "--param",
-                                                  "shadow-map.resolution=32,512", "--size", "96x64", "--repeats", "1", "--out", "out"});
+    Ended const ended =
+        gnomon_in(folder.path(), {"compare", scene, "--techniques", "shadow-map,ray", "--param",
+                                  "shadow-map.resolution=32,512", "--size", "96x64", "--repeats", "1", "--out", "out"});
     CAPTURE(ended.err, ended.out);
     REQUIRE(ended.exit_code == 0);
     json const results = results_in(folder / "out");
@@ -58,7 +59,8 @@ TEST_CASE("compare writes a folder that is whole: page, pictures, results", "[co
 
 TEST_CASE("the page loads nothing from elsewhere", "[command]") {
     TestFolder const folder;
-    Ended const ended = gnomon_in(folder.path(), {"compare", write_table(folder), "--size", "48x32", "--repeats", "1", "--out", "out"});
+    Ended const ended =
+        gnomon_in(folder.path(), {"compare", write_table(folder), "--size", "48x32", "--repeats", "1", "--out", "out"});
     REQUIRE(ended.exit_code == 0);
     std::string const page = read_text(folder / "out" / "index.html");
     for (char const* outside : {"http:", "https:", "url(", "@import", "<link", "src='/", "src=\""}) {
@@ -94,8 +96,9 @@ TEST_CASE("pictures and errors are the same for any number of threads", "[comman
     TestFolder const folder;
     std::string const scene = write_table(folder);
     for (char const* threads : {"1", "3"})
-        REQUIRE(gnomon_in(folder.path(), {"compare", scene, "--threads", threads, "--size", "80x60", "--repeats", "1", "--out",
-                                          std::string("t") + threads}).exit_code == 0);
+        REQUIRE(gnomon_in(folder.path(), {"compare", scene, "--threads", threads, "--size", "80x60", "--repeats", "1",
+                                          "--out", std::string("t") + threads})
+                    .exit_code == 0);
     json const one = results_in(folder / "t1");
     json const three = results_in(folder / "t3");
     CHECK(three["runs"][0]["threads"] == 3);
@@ -121,8 +124,8 @@ TEST_CASE("render draws one picture a run, and JSON on standard output stands al
 
 TEST_CASE("a view of nothing is a picture of the sky, not an error", "[command]") {
     TestFolder const folder;
-    Ended const ended = gnomon_in(folder.path(), {"compare", write_table(folder), "--eye", "0,50,0", "--look", "0,90,0", "--size",
-                                                  "16x16", "--repeats", "1", "--out", "sky"});
+    Ended const ended = gnomon_in(folder.path(), {"compare", write_table(folder), "--eye", "0,50,0", "--look", "0,90,0",
+                                                  "--size", "16x16", "--repeats", "1", "--out", "sky"});
     CAPTURE(ended.err);
     CHECK(ended.exit_code == 0);
     CHECK(results_in(folder / "sky")["runs"][0]["error"]["samples"] == 0);

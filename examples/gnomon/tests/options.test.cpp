@@ -37,7 +37,8 @@ bool has(std::string const& text, char const* part) {
 }  // namespace
 
 TEST_CASE("negative directions are values, not options", "[options]") {
-    RunOptions const run = run_of({"compare", "city", "--sun", "-0.45,-0.8,-0.4", "--eye", "-1,2,3", "--look", "-.5,0,0"});
+    RunOptions const run =
+        run_of({"compare", "city", "--sun", "-0.45,-0.8,-0.4", "--eye", "-1,2,3", "--look", "-.5,0,0"});
     CHECK(run.verb == Verb::compare);
     CHECK(run.light.sun == gnomon::math::dvec3(-0.45, -0.8, -0.4));
     CHECK(run.view.eye_m == gnomon::math::dvec3(-1.0, 2.0, 3.0));
@@ -46,14 +47,15 @@ TEST_CASE("negative directions are values, not options", "[options]") {
 }
 
 TEST_CASE("techniques come as a list or one by one, parameters with lists of values", "[options]") {
-    RunOptions const run = run_of({"compare", "city", "--techniques", "shadow-map,ray", "--param", "shadow-map.resolution=512,1024",
-                                   "--param", "shadow-map.taps=1"});
+    RunOptions const run = run_of({"compare", "city", "--techniques", "shadow-map,ray", "--param",
+                                   "shadow-map.resolution=512,1024", "--param", "shadow-map.taps=1"});
     CHECK(run.techniques == std::vector<std::string>{"shadow-map", "ray"});
     REQUIRE(run.params.size() == 2);
     CHECK(run.params[0].technique == "shadow-map");
     CHECK(run.params[0].name == "resolution");
     CHECK(run.params[0].values == std::vector<std::string>{"512", "1024"});
-    CHECK(run_of({"render", "city", "--technique", "a", "--technique", "b"}).techniques == std::vector<std::string>{"a", "b"});
+    CHECK(run_of({"render", "city", "--technique", "a", "--technique", "b"}).techniques ==
+          std::vector<std::string>{"a", "b"});
     CHECK(run_of({"compare", "city"}).techniques == std::vector<std::string>{"shadow-map", "ray"});
     CHECK(run_of({"compare", "city"}).threads >= 1);
 }
@@ -94,6 +96,8 @@ TEST_CASE("every bad value is named, with what to do", "[options]") {
     CHECK(has(refused({"render", "city", "--sun", "nan,0,0"}), "'nan'"));
     CHECK(has(refused({"render", "city", "--sun", "1,0,0", "--point", "1,2,3"}), "one light"));
     CHECK(has(refused({"render", "city", "--eye", "nan,0,0", "--look", "1,2,3"}), "'nan'"));
+    CHECK(has(refused({"render", "city", "--eye", "1e10,0,0", "--look", "1,2,3"}), "too far"));
+    CHECK(run_of({"render", "city", "--sun", "1e300,0,0"}).light.sun.has_value());
     CHECK(has(refused({"render", "city", "--eye", "0,0,0"}), "--look"));
     CHECK(has(refused({"render", "city", "--eye", "1,1,1", "--look", "1,1,1"}), "same point"));
     CHECK(has(refused({"render", "city", "--fov", "60"}), "--eye"));
@@ -113,8 +117,13 @@ TEST_CASE("every bad value is named, with what to do", "[options]") {
 }
 
 TEST_CASE("help and version are answers, not errors", "[options]") {
-    for (auto arguments : {std::initializer_list<char const*>{"--help"}, {"--version"}, {"render", "--help"}, {"compare", "--help"},
-                           {"scenes", "--help"}, {"info", "--help"}, {"-h"}}) {
+    for (auto arguments : {std::initializer_list<char const*>{"--help"},
+                           {"--version"},
+                           {"render", "--help"},
+                           {"compare", "--help"},
+                           {"scenes", "--help"},
+                           {"info", "--help"},
+                           {"-h"}}) {
         auto const command = parse(arguments);
         REQUIRE(command);
         REQUIRE(std::holds_alternative<HelpText>(*command));

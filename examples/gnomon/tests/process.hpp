@@ -28,7 +28,7 @@ inline std::string read_text(fs::path const& path) {
 inline void write_text(fs::path const& path, std::string const& text) { std::ofstream(path, std::ios::binary) << text; }
 
 class TestFolder {
-public:
+  public:
     TestFolder() {
         std::string name = (fs::temp_directory_path() / "gnomon-command-XXXXXX").string();
         if (mkdtemp(name.data()) != nullptr) path_ = name;
@@ -51,7 +51,7 @@ public:
         return names;
     }
 
-private:
+  private:
     fs::path path_;
 };
 

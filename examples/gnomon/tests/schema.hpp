@@ -13,7 +13,7 @@ namespace gnomon::command::schema {
 using nlohmann::json;
 
 class Validator {
-public:
+  public:
     explicit Validator(json root) : root_(std::move(root)) {}
 
     /// Every rule that `document` breaks, as "where: what"; none for a valid document.
@@ -23,7 +23,7 @@ public:
         return errors_;
     }
 
-private:
+  private:
     void complain(std::string const& where, std::string const& what) { errors_.push_back(where + ": " + what); }
 
     static bool has_type(json const& value, std::string const& type) {
@@ -31,8 +31,9 @@ private:
         if (type == "array") return value.is_array();
         if (type == "string") return value.is_string();
         if (type == "number") return value.is_number();
-        if (type == "integer") return value.is_number_integer() ||
-                                      (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
+        if (type == "integer")
+            return value.is_number_integer() ||
+                   (value.is_number_float() && std::floor(value.get<double>()) == value.get<double>());
         if (type == "boolean") return value.is_boolean();
         return type == "null" && value.is_null();
     }
@@ -73,9 +74,11 @@ private:
             if (!schema.get<bool>()) complain(where, "is not allowed");
             return;
         }
-        static std::vector<std::string> const known = {"$schema", "$id", "$defs", "title", "description", "type", "required",
-                                                       "properties", "additionalProperties", "items", "enum", "minimum",
-                                                       "maximum", "minLength", "$ref"};
+        static std::vector<std::string> const known = {"$schema",  "$id",         "$defs",
+                                                       "title",    "description", "type",
+                                                       "required", "properties",  "additionalProperties",
+                                                       "items",    "enum",        "minimum",
+                                                       "maximum",  "minLength",   "$ref"};
         for (auto const& [keyword, rule] : schema.items()) {
             if (std::find(known.begin(), known.end(), keyword) == known.end())
                 complain(where, "the schema uses the unknown keyword " + keyword);

@@ -99,7 +99,9 @@ TEST_CASE("a keyword that the validator does not know is an error", "[schema]") 
 }
 
 TEST_CASE("only a results.json lists files of ours", "[schema]") {
-    CHECK(files_listed_in(json_text(small_report(), {"a.png", "results.json"})) == std::vector<std::string>{"a.png", "results.json"});
-    for (char const* text : {"", "[]", "{}", "{\"gnomon\": 1}", "{\"gnomon\": {\"files\": 3}}", "{\"gnomon\": {\"files\": [1]}}", "{"})
+    CHECK(files_listed_in(json_text(small_report(), {"a.png", "results.json"})) ==
+          std::vector<std::string>{"a.png", "results.json"});
+    for (char const* text :
+         {"", "[]", "{}", "{\"gnomon\": 1}", "{\"gnomon\": {\"files\": 3}}", "{\"gnomon\": {\"files\": [1]}}", "{"})
         CHECK(files_listed_in(text).empty());
 }
