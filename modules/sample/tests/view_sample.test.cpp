@@ -158,6 +158,10 @@ TEST_CASE("parts of a triangle behind the eye are not sampled", "[sample]") {
                                     Target::point(math::vec3(0.0F)));
     CHECK(s.position.z <= 0.0F);
     CHECK(s.position.x > 0.0F);
+    // The ray's line, prolonged backwards, meets the edge behind the eye: that edge must not count.
+    auto const upwards = make_view_sample(core::TriangleId(0), through, {math::dvec3(0.0), math::dvec3(0.0, 0.02, -1.0)},
+                                          Target::point(math::vec3(0.0F)));
+    CHECK(upwards.position.z <= 0.0F);
 }
 
 TEST_CASE("degenerate triangles and views give finite samples", "[sample][degenerate]") {
