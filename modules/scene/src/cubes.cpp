@@ -84,7 +84,7 @@ Result<Scene> make_cubes(ProceduralConfig const& config) {
         scene.instances.push_back(floating_cube(random, mesh, cell));
     }
     scene.lights.push_back(lamp({-14.0, 30.0, 16.0}, 34.0));
-    scene.cameras.push_back(looking_at("A", {-20.0, 17.0, 24.0}, {0.5, 5.0, -1.0}, sixty_degrees_rad * 0.75));
+    scene.cameras.push_back(looking_at("A", {-24.0, 20.0, 29.0}, {0.5, 6.5, -1.0}, sixty_degrees_rad * 0.75));
     scene.cameras.push_back(looking_at("B", {26.0, 9.0, 16.0}, {1.0, 5.5, -1.0}, sixty_degrees_rad * 0.75));
     scene.cameras.push_back(looking_at("C", {15.0, 1.7, -21.0}, {-1.5, 7.0, 2.0}, sixty_degrees_rad));
     return scene;

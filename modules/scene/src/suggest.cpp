@@ -190,6 +190,27 @@ private:
             view.target_m = middle;
             view.fov_y_rad = outside_fov_rad;
         }
+        zoom_in(view);
+    }
+
+    /// Turns to the middle of what is seen, and narrows the field until it fills the image but for a border.
+    void zoom_in(SuggestedView& view) const {
+        constexpr double narrowest_slope = 0.2;
+        constexpr int side = 40;
+        constexpr double border = 2.0 / side + 0.06;
+        Frame const frame = frame_of(view.eye_m, view.target_m, view.fov_y_rad);
+        math::dvec2 lo(1.0);
+        math::dvec2 hi(-1.0);
+        each_pixel(side, [&](double x, double y) {
+            if (grid_.cast(view.eye_m, frame.through(x, y)).triangle == none) return;
+            lo = glm::min(lo, math::dvec2(x, y));
+            hi = glm::max(hi, math::dvec2(x, y));
+        });
+        double const widest = std::max(hi.x - lo.x, hi.y - lo.y) * 0.5 + border;
+        if (!(hi.x >= lo.x) || widest >= 1.0) return;
+        math::dvec2 const middle = (lo + hi) * 0.5;
+        view.target_m = view.eye_m + frame.through(middle.x, middle.y) * glm::length(view.target_m - view.eye_m);
+        view.fov_y_rad = 2.0 * std::atan(std::max(frame.slope * widest, narrowest_slope));
     }
 
     /// How much of the image is covered, and how much of that by fronts.
