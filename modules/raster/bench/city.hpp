@@ -58,7 +58,8 @@ inline City make_city(int size) {
         for (int i = 0; i < 36; ++i) {
             float const pitch_x = 1000.0F / 36.0F;
             float const pitch_z = 1000.0F / 35.0F;
-            math::vec3 const middle(-500.0F + (static_cast<float>(i) + 0.5F) * pitch_x, 0, -500.0F + (static_cast<float>(j) + 0.5F) * pitch_z);
+            math::vec3 const middle(-500.0F + (static_cast<float>(i) + 0.5F) * pitch_x, 0,
+                                    -500.0F + (static_cast<float>(j) + 0.5F) * pitch_z);
             math::vec3 const half{6.0F + 4.0F * random(), 0.0F, 6.0F + 4.0F * random()};
             city.add_box(middle - half, middle + half + math::vec3(0, 8.0F + 70.0F * random(), 0), n, m);
         }
@@ -68,8 +69,12 @@ inline City make_city(int size) {
 /// The sun's view, fitted to the city's box, or the view along a street.
 inline math::View make_view(bool ortho, int size_px) {
     if (!ortho)
-        return math::make_perspective({.eye_m = {-222.2, 1.7, -414.3}, .target_m = math::dvec3(-222.2 + 0.35, 1.7 + 0.06, -413.3),
-                                       .near_m = 0.5, .far_m = 2000.0, .size_px = {size_px, size_px}, .depth = math::Depth::forward})
+        return math::make_perspective({.eye_m = {-222.2, 1.7, -414.3},
+                                       .target_m = math::dvec3(-222.2 + 0.35, 1.7 + 0.06, -413.3),
+                                       .near_m = 0.5,
+                                       .far_m = 2000.0,
+                                       .size_px = {size_px, size_px},
+                                       .depth = math::Depth::forward})
             .value();
     math::View view;
     view = math::looking_along(view, math::dvec3(-0.45, -0.80, -0.40), math::dvec3(0, 1, 0));

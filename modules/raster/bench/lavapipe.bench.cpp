@@ -76,13 +76,15 @@ void against_lavapipe(benchmark::State& state) {
                             .indices = std::span<std::uint32_t const>(city.indices),
                             .origin = math::to_float(view.eye_m),
                             .clip_from_relative = math::clip_from_relative(view)};
-    bench::LavapipePass const peer(vk, city.positions, city.indices, static_cast<std::uint32_t>(size),
-                                   {draw.clip_from_relative, math::vec4(draw.origin.x, draw.origin.y, draw.origin.z, 0)});
+    bench::LavapipePass const peer(
+        vk, city.positions, city.indices, static_cast<std::uint32_t>(size),
+        {draw.clip_from_relative, math::vec4(draw.origin.x, draw.origin.y, draw.origin.z, 0)});
     std::vector<float> depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
     raster::Workspace workspace;
     core::SerialExecutor serial;
     auto const ours = [&] {
-        raster::depth_pass({&draw, 1}, raster::make_image(depth.data(), size, size), {.depth = math::Depth::forward}, workspace, serial);
+        raster::depth_pass({&draw, 1}, raster::make_image(depth.data(), size, size), {.depth = math::Depth::forward},
+                           workspace, serial);
     };
     ours();
     peer.draw();

@@ -91,12 +91,14 @@ struct Vulkan {
     [[nodiscard]] VkDeviceMemory allocate(VkMemoryRequirements const& need) const {
         VkPhysicalDeviceMemoryProperties properties;
         vkGetPhysicalDeviceMemoryProperties(physical, &properties);
-        VkMemoryPropertyFlags const visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        VkMemoryPropertyFlags const visible =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
         VkMemoryAllocateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
         info.allocationSize = need.size;
         for (std::uint32_t i = properties.memoryTypeCount; i-- > 0;)
-            if (((need.memoryTypeBits >> i) & 1U) != 0 && (properties.memoryTypes[i].propertyFlags & visible) == visible)
+            if (((need.memoryTypeBits >> i) & 1U) != 0 &&
+                (properties.memoryTypes[i].propertyFlags & visible) == visible)
                 info.memoryTypeIndex = i;
         VkDeviceMemory memory = VK_NULL_HANDLE;
         GNOMON_VK(vkAllocateMemory(device, &info, nullptr, &memory));
@@ -133,7 +135,8 @@ struct DeviceBuffer {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     void* mapped = nullptr;
 
-    DeviceBuffer(Vulkan const& owner, std::size_t size, VkBufferUsageFlags usage, void const* data = nullptr) : vk(owner) {
+    DeviceBuffer(Vulkan const& owner, std::size_t size, VkBufferUsageFlags usage, void const* data = nullptr)
+        : vk(owner) {
         VkBufferCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
         info.size = size;

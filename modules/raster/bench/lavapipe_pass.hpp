@@ -6,9 +6,9 @@
 namespace bench {
 
 class LavapipePass {
-public:
-    LavapipePass(Vulkan const& vk, std::span<gnomon::math::vec3 const> positions, std::span<std::uint32_t const> indices,
-                 std::uint32_t size_px, Push const& push)
+  public:
+    LavapipePass(Vulkan const& vk, std::span<gnomon::math::vec3 const> positions,
+                 std::span<std::uint32_t const> indices, std::uint32_t size_px, Push const& push)
         : vk_(vk),
           size_(size_px),
           vertices_(vk, positions.size_bytes(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, positions.data()),
@@ -47,7 +47,7 @@ public:
         return depth;
     }
 
-private:
+  private:
     void make_image() {
         VkImageCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -153,8 +153,8 @@ private:
         b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         b.image = image_;
         b.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
-                             nullptr, 1, &b);
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                             nullptr, 0, nullptr, 1, &b);
     }
 
     void record(std::uint32_t index_count, Push const& push) {

@@ -1,4 +1,5 @@
-// The depth pass on the three cities, from the sun and from the street, one thread. Milliseconds per pass, clear included.
+// The depth pass on the three cities, from the sun and from the street, one thread. Milliseconds per pass, clear
+// included.
 
 #include <gnomon/core/executor_tbb.hpp>
 #include <gnomon/raster.hpp>
@@ -35,7 +36,9 @@ void depth_of_city(benchmark::State& state, raster::Kernel kernel, int threads) 
 }
 
 void arguments(benchmark::internal::Benchmark* b) {
-    b->ArgNames({"city", "persp", "px"})->ArgsProduct({{0, 1, 2}, {0, 1}, {1024, 2048, 4096}})->Unit(benchmark::kMillisecond);
+    b->ArgNames({"city", "persp", "px"})
+        ->ArgsProduct({{0, 1, 2}, {0, 1}, {1024, 2048, 4096}})
+        ->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK_CAPTURE(depth_of_city, automatic, raster::Kernel::automatic, 1)->Apply(arguments);

@@ -26,6 +26,12 @@ GNOMON_AVX2_INLINE __m256i select(__m256i a, __m256i b, __m256i mask) {
 }
 GNOMON_AVX2_INLINE __m256i is_less(__m256i a, __m256i b) { return _mm256_cmpgt_epi32(b, a); }
 
+GNOMON_AVX2_INLINE __m128i low_half(__m256i v) { return _mm256_castsi256_si128(v); }
+GNOMON_AVX2_INLINE __m128i high_half(__m256i v) { return _mm256_extracti128_si256(v, 1); }
+GNOMON_AVX2_INLINE __m256i joined(__m128 low, __m128 high) {
+    return as_int(_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1));
+}
+
 /// Four rows of eight (x, y, z, w in lanes) to and from eight structs of four, as [0|4] [1|5] [2|6] [3|7].
 struct Four {
     __m256i v[4];

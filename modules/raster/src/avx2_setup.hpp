@@ -22,7 +22,8 @@ GNOMON_AVX2_INLINE __m256i load_pair(Corner const* low, Corner const* high) {
 
 GNOMON_AVX2_INLINE Corner8 load_corners(Corner const* corners, std::uint32_t const* index) {
     auto const at = [&](int i) { return corners + index[3 * i]; };
-    Four const t = transposed_4x4(load_pair(at(0), at(4)), load_pair(at(1), at(5)), load_pair(at(2), at(6)), load_pair(at(3), at(7)));
+    Four const t = transposed_4x4(load_pair(at(0), at(4)), load_pair(at(1), at(5)), load_pair(at(2), at(6)),
+                                  load_pair(at(3), at(7)));
     return {t.v[0], t.v[1], t.v[2], t.v[3]};
 }
 
@@ -54,8 +55,12 @@ struct Bounds8 {
     __m256i is_small, no_sample, outside;
 };
 
-GNOMON_AVX2_INLINE __m256i least(__m256i a, __m256i b, __m256i c) { return _mm256_min_epi32(_mm256_min_epi32(a, b), c); }
-GNOMON_AVX2_INLINE __m256i greatest(__m256i a, __m256i b, __m256i c) { return _mm256_max_epi32(_mm256_max_epi32(a, b), c); }
+GNOMON_AVX2_INLINE __m256i least(__m256i a, __m256i b, __m256i c) {
+    return _mm256_min_epi32(_mm256_min_epi32(a, b), c);
+}
+GNOMON_AVX2_INLINE __m256i greatest(__m256i a, __m256i b, __m256i c) {
+    return _mm256_max_epi32(_mm256_max_epi32(a, b), c);
+}
 
 GNOMON_AVX2_INLINE Bounds8 bounds_of(SetupJob const& job, Corner8 const& a, Corner8 const& b, Corner8 const& c) {
     __m256i const low_x = least(a.x, b.x, c.x);
@@ -92,7 +97,8 @@ GNOMON_AVX2_INLINE void orient_x8(Corner8 (&v)[3], __m256i area) {
         Corner8 const& stay = from[i];
         Corner8 const& by_one = from[(i + 1) % 3];
         Corner8 const& by_two = from[(i + 2) % 3];
-        v[i] = {select(select(stay.x, by_one.x, one), by_two.x, two), select(select(stay.y, by_one.y, one), by_two.y, two),
+        v[i] = {select(select(stay.x, by_one.x, one), by_two.x, two),
+                select(select(stay.y, by_one.y, one), by_two.y, two),
                 select(select(stay.z, by_one.z, one), by_two.z, two), stay.code};
     }
 }
@@ -119,7 +125,8 @@ struct Gradient4 {
     __m128 z0, g1, g2;
 };
 
-GNOMON_AVX2_INLINE Gradient4 gradient_x4(__m128i area, __m128 z0f, __m128 z1f, __m128 z2f, __m128i fraction20, __m128i fraction01) {
+GNOMON_AVX2_INLINE Gradient4 gradient_x4(__m128i area, __m128 z0f, __m128 z1f, __m128 z2f, __m128i fraction20,
+                                         __m128i fraction01) {
     __m256d const scale = _mm256_div_pd(_mm256_set1_pd(256.0), _mm256_cvtepi32_pd(area));
     __m256d const z0 = _mm256_cvtps_pd(z0f);
     __m256d const g1 = _mm256_mul_pd(_mm256_sub_pd(_mm256_cvtps_pd(z1f), z0), scale);
@@ -131,18 +138,15 @@ GNOMON_AVX2_INLINE Gradient4 gradient_x4(__m128i area, __m128 z0f, __m128 z1f, _
     return {_mm256_cvtpd_ps(_mm256_add_pd(z0, shifted)), _mm256_cvtpd_ps(g1), _mm256_cvtpd_ps(g2)};
 }
 
-GNOMON_AVX2_INLINE __m128i low_half(__m256i v) { return _mm256_castsi256_si128(v); }
-GNOMON_AVX2_INLINE __m128i high_half(__m256i v) { return _mm256_extracti128_si256(v, 1); }
-GNOMON_AVX2_INLINE __m256i joined(__m128 low, __m128 high) {
-    return as_int(_mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1));
-}
-
 /// The words of eight records, each vector one field.
-GNOMON_AVX2_INLINE void set_depth(Corner8 const (&v)[3], __m256i area, Edge8 const& e01, Edge8 const& e20, __m256i (&words)[16]) {
-    Gradient4 const low = gradient_x4(low_half(area), _mm_castsi128_ps(low_half(v[0].z)), _mm_castsi128_ps(low_half(v[1].z)),
-                                      _mm_castsi128_ps(low_half(v[2].z)), low_half(e20.fraction), low_half(e01.fraction));
-    Gradient4 const high = gradient_x4(high_half(area), _mm_castsi128_ps(high_half(v[0].z)), _mm_castsi128_ps(high_half(v[1].z)),
-                                       _mm_castsi128_ps(high_half(v[2].z)), high_half(e20.fraction), high_half(e01.fraction));
+GNOMON_AVX2_INLINE void set_depth(Corner8 const (&v)[3], __m256i area, Edge8 const& e01, Edge8 const& e20,
+                                  __m256i (&words)[16]) {
+    Gradient4 const low =
+        gradient_x4(low_half(area), _mm_castsi128_ps(low_half(v[0].z)), _mm_castsi128_ps(low_half(v[1].z)),
+                    _mm_castsi128_ps(low_half(v[2].z)), low_half(e20.fraction), low_half(e01.fraction));
+    Gradient4 const high =
+        gradient_x4(high_half(area), _mm_castsi128_ps(high_half(v[0].z)), _mm_castsi128_ps(high_half(v[1].z)),
+                    _mm_castsi128_ps(high_half(v[2].z)), high_half(e20.fraction), high_half(e01.fraction));
     words[9] = joined(low.z0, high.z0);
     words[10] = joined(low.g1, high.g1);
     words[11] = joined(low.g2, high.g2);
@@ -200,8 +204,8 @@ GNOMON_AVX2_INLINE std::uint64_t take(std::uint32_t& alive, std::uint32_t mask) 
 }
 
 /// Rejects and words of eight triangles; returns the lanes to keep. Lanes not in `alive` are left out.
-GNOMON_AVX2_INLINE std::uint32_t make_words(SetupJob const& job, Corner8 (&v)[3], Bounds8 const& bounds, std::uint32_t alive,
-                                            SetupCounts& counts, __m256i (&words)[16]) {
+GNOMON_AVX2_INLINE std::uint32_t make_words(SetupJob const& job, Corner8 (&v)[3], Bounds8 const& bounds,
+                                            std::uint32_t alive, SetupCounts& counts, __m256i (&words)[16]) {
     __m256i const zero = _mm256_setzero_si256();
     __m256i const area =
         _mm256_sub_epi32(_mm256_mullo_epi32(_mm256_sub_epi32(v[1].x, v[0].x), _mm256_sub_epi32(v[2].y, v[0].y)),
@@ -249,7 +253,8 @@ GNOMON_AVX2 void store_mixed(SetupJob const& job, std::size_t triangle, __m256i 
     }
 }
 
-GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t end, RecordSink& sink, SetupCounts& counts) {
+GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t end, RecordSink& sink,
+                            SetupCounts& counts) {
     std::uint32_t index[24];
     for (; begin + 8 <= end; begin += 8) {
         sink.room(8);
@@ -257,7 +262,8 @@ GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t 
             for (std::size_t i = begin; i < begin + 8; ++i) setup_one(job, i, sink, counts);
             continue;
         }
-        Corner8 v[3] = {load_corners(job.corners, index), load_corners(job.corners, index + 1), load_corners(job.corners, index + 2)};
+        Corner8 v[3] = {load_corners(job.corners, index), load_corners(job.corners, index + 1),
+                        load_corners(job.corners, index + 2)};
         __m256i const any = _mm256_or_si256(_mm256_or_si256(v[0].code, v[1].code), v[2].code);
         Bounds8 const bounds = bounds_of(job, v[0], v[1], v[2]);
         std::uint32_t alive = 0xFFU;
@@ -265,7 +271,8 @@ GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t 
         if (!_mm256_testz_si256(any, any)) {
             __m256i const zero = _mm256_setzero_si256();
             __m256i const common = _mm256_and_si256(_mm256_and_si256(v[0].code, v[1].code), v[2].code);
-            __m256i const finite = _mm256_cmpeq_epi32(_mm256_and_si256(any, all_of(static_cast<std::int32_t>(code_not_finite))), zero);
+            __m256i const finite =
+                _mm256_cmpeq_epi32(_mm256_and_si256(any, all_of(static_cast<std::int32_t>(code_not_finite))), zero);
             std::uint32_t const out = sign_bits(_mm256_andnot_si256(_mm256_cmpeq_epi32(common, zero), finite));
             counts.outside += take(alive, out);
             slow = (slow | ~sign_bits(_mm256_cmpeq_epi32(any, zero))) & alive;
@@ -274,7 +281,8 @@ GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t 
         __m256i words[16] = {};  // store_mixed copies all of it, also where no lane is alive
         std::uint32_t const keep = alive != 0 ? make_words(job, v, bounds, alive, counts, words) : 0;
         if ((keep | slow) == 0) continue;
-        words[12] = _mm256_add_epi32(iota(), all_of(static_cast<std::int32_t>(job.id_base + static_cast<std::uint32_t>(begin))));
+        words[12] = _mm256_add_epi32(
+            iota(), all_of(static_cast<std::int32_t>(job.id_base + static_cast<std::uint32_t>(begin))));
         if (slow == 0)
             store_records(words, keep, sink);
         else

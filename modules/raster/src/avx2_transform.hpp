@@ -19,7 +19,8 @@ GNOMON_AVX2_INLINE Clip4x8 to_clip_x8(VertexJob const& job, unsigned char const*
                              all_of(job.origin[i]));
     Clip4x8 clip;
     for (int r = 0; r < 4; ++r) {
-        __m256 const xy = _mm256_add_ps(_mm256_mul_ps(all_of(job.row[r][0]), p[0]), _mm256_mul_ps(all_of(job.row[r][1]), p[1]));
+        __m256 const xy =
+            _mm256_add_ps(_mm256_mul_ps(all_of(job.row[r][0]), p[0]), _mm256_mul_ps(all_of(job.row[r][1]), p[1]));
         clip.v[r] = _mm256_add_ps(_mm256_add_ps(xy, _mm256_mul_ps(all_of(job.row[r][2]), p[2])), all_of(job.row[r][3]));
     }
     return clip;
@@ -33,7 +34,8 @@ GNOMON_AVX2_INLINE __m256i outcode_x8(Clip4x8 const& c, VertexJob const& job) {
     __m256 const sign = all_of(-0.0F);
     __m256 usable = _mm256_castsi256_ps(all_of(-1));
     for (__m256 const& v : c.v)
-        usable = _mm256_and_ps(usable, _mm256_cmp_ps(_mm256_andnot_ps(sign, v), all_of(max_clip_coordinate), _CMP_LE_OQ));
+        usable =
+            _mm256_and_ps(usable, _mm256_cmp_ps(_mm256_andnot_ps(sign, v), all_of(max_clip_coordinate), _CMP_LE_OQ));
     __m256 const w = c.v[3];
     __m256 const gx = _mm256_mul_ps(all_of(job.guard_x), w);
     __m256 const gy = _mm256_mul_ps(all_of(job.guard_y), w);

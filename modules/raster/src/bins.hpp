@@ -24,13 +24,16 @@ struct BinGrid {
 
 [[nodiscard]] constexpr int bin_shift(int level) noexcept { return tile_shift + 2 * level; }
 
-[[nodiscard]] inline BinGrid make_bin_grid(std::int32_t width_px, std::int32_t height_px, std::int32_t shift_x) noexcept {
+[[nodiscard]] inline BinGrid make_bin_grid(std::int32_t width_px, std::int32_t height_px,
+                                           std::int32_t shift_x) noexcept {
     BinGrid grid;
     grid.shift_x = shift_x;
     width_px += shift_x;
     while (grid.levels < max_bin_levels) {
         int const shift = bin_shift(grid.levels);
-        auto const bins = [shift](std::int32_t px) { return static_cast<std::uint32_t>((px + (1 << shift) - 1) >> shift); };
+        auto const bins = [shift](std::int32_t px) {
+            return static_cast<std::uint32_t>((px + (1 << shift) - 1) >> shift);
+        };
         grid.width[grid.levels] = bins(width_px);
         grid.base[grid.levels] = grid.total;
         grid.total += bins(width_px) * bins(height_px);
@@ -85,7 +88,8 @@ inline void for_each_run(BinGrid const& grid, std::uint32_t const* begin, std::u
     std::uint32_t const* end[max_bin_levels];
     int used = 0;
     for (int level = 0; level < grid.levels; ++level) {
-        std::uint32_t const bin = grid.base[level] + static_cast<std::uint32_t>(tile_y >> (2 * level)) * grid.width[level] +
+        std::uint32_t const bin = grid.base[level] +
+                                  static_cast<std::uint32_t>(tile_y >> (2 * level)) * grid.width[level] +
                                   static_cast<std::uint32_t>(tile_x >> (2 * level));
         at[used] = entries + begin[bin];
         end[used] = entries + begin[bin + 1];

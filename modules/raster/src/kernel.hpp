@@ -14,7 +14,7 @@ inline constexpr std::int32_t tile_pitch = tile_size + 8;  // A vector may start
 
 inline constexpr std::int32_t fraction_bits = 8;
 inline constexpr std::int32_t half_pixel = 128;
-inline constexpr std::int32_t small_extent = 64 * 256;     // Products of two differences fit 32 bits.
+inline constexpr std::int32_t small_extent = 64 * 256;      // Products of two differences fit 32 bits.
 inline constexpr std::int32_t regular_extent = 1024 * 256;  // Shifted edge functions fit 32 bits inside the bounds.
 
 /// A transformed corner: 16 bytes, so that a triangle is three loads.
@@ -34,9 +34,9 @@ struct alignas(64) Record {
     std::int32_t edge[3];    // E' of edges 01, 12, 20 at the first pixel of the bounds. Large: the corners' x.
     std::int32_t step_x[3];  // Large: the corners' y.
     std::int32_t step_y[3];
-    float z0;                // With the fractions that the shift took from E.
-    float g1;                // Depth per E'20. Large: the depth of corner 1.
-    float g2;                // Depth per E'01. Large: the depth of corner 2.
+    float z0;  // With the fractions that the shift took from E.
+    float g1;  // Depth per E'20. Large: the depth of corner 1.
+    float g2;  // Depth per E'01. Large: the depth of corner 2.
     std::uint32_t id;
     std::uint16_t min_x, min_y, max_x, max_y;  // Pixels, inclusive, within the scissor rectangle.
     std::uint32_t tag;                         // Bit 0: large. The rest: 1 + index of the masked draw, or 0.

@@ -25,9 +25,8 @@ std::uint64_t tile(TileJob const& job, Record const* records, std::uint32_t cons
     std::uint64_t written = 0;
     for (std::size_t i = 0; i < count; ++i) {
         Record const& record = records[entries[i]];
-        written += (record.tag >> 1U) != 0
-                       ? job.masked(job, record)
-                       : draw_samples(job, record, [](std::int32_t, std::int32_t) { return true; });
+        written += (record.tag >> 1U) != 0 ? job.masked(job, record)
+                                           : draw_samples(job, record, [](std::int32_t, std::int32_t) { return true; });
     }
     return written;
 }

@@ -70,7 +70,8 @@ TexturePlane make_texture_plane(MaskedDraw const& draw, std::uint32_t triangle) 
     for (int i = 0; i < 3; ++i) {
         double const* const p = c[(i + 1) % 3];
         double const* const q = c[(i + 2) % 3];
-        for (int k = 0; k < 3; ++k) plane.weight[i][k] = p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+        for (int k = 0; k < 3; ++k)
+            plane.weight[i][k] = p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
     }
     return plane;
 }

@@ -48,8 +48,8 @@ struct Workspace::State {
     std::vector<detail::MaskedDraw> masked;
     std::vector<Chunk> chunks;
     Buffer<Corner> corners;
-    Buffer<std::uint32_t> bins;      // One array of bin starts per chunk.
-    Buffer<std::uint64_t> written;   // Samples per tile.
+    Buffer<std::uint32_t> bins;     // One array of bin starts per chunk.
+    Buffer<std::uint64_t> written;  // Samples per tile.
 };
 
 Workspace::Workspace() : state_(std::make_unique<State>()) {}
@@ -61,7 +61,8 @@ std::size_t Workspace::size_bytes() const noexcept {
     State const& s = *state_;
     std::size_t bytes = s.corners.size_bytes() + s.bins.size_bytes() + s.written.size_bytes();
     bytes += s.draws.capacity() * sizeof(DrawState) + s.masked.capacity() * sizeof(detail::MaskedDraw);
-    for (Chunk const& chunk : s.chunks) bytes += sizeof(Chunk) + chunk.records.size_bytes() + chunk.entries.size_bytes();
+    for (Chunk const& chunk : s.chunks)
+        bytes += sizeof(Chunk) + chunk.records.size_bytes() + chunk.entries.size_bytes();
     return bytes;
 }
 
@@ -69,7 +70,7 @@ namespace {
 
 /// One pass over one target, from the draws to the last tile.
 class Pass {
-public:
+  public:
     Pass(PassConfig const& config, DepthTarget const& depth, ImageView<std::uint32_t> const* triangle,
          Workspace::State& state, core::ExecutorRef executor)
         : config_(config), depth_(depth), triangle_(triangle), state_(state), executor_(executor) {
@@ -106,7 +107,7 @@ public:
         return stats;
     }
 
-private:
+  private:
     void set_scissor(Rect const& scissor, Rect const& whole) {
         auto const end = [](std::int32_t at, std::int32_t size, std::int32_t limit) {
             return static_cast<std::int32_t>(std::min<std::int64_t>(std::int64_t{at} + std::max(size, 0), limit));
@@ -142,7 +143,8 @@ private:
             added.first_triangle = triangles;
             corner_total_ += added.setup.corner_count;
             triangles += added.triangles;
-            bool const masked = draw.alpha_test != nullptr && detail::is_complete(*draw.alpha_test, draw.positions.size());
+            bool const masked =
+                draw.alpha_test != nullptr && detail::is_complete(*draw.alpha_test, draw.positions.size());
             if (masked) {
                 state_.masked.push_back({draw.alpha_test, nullptr, draw.indices, draw.first_triangle});
                 added.setup.tag = static_cast<std::uint32_t>(state_.masked.size()) << 1U;
@@ -171,7 +173,8 @@ private:
                     .guard_y = v.guard_y,
                     .clip_depth = v.clip_depth};
         for (math::axis_t row = 0; row < 4; ++row)
-            for (math::axis_t column = 0; column < 4; ++column) s.vertex.row[row][column] = draw.clip_from_relative[column][row];
+            for (math::axis_t column = 0; column < 4; ++column)
+                s.vertex.row[row][column] = draw.clip_from_relative[column][row];
         s.triangles = triangle_count(draw);
         s.setup.index32 = draw.indices.wide();
         s.setup.index16 = draw.indices.narrow();
@@ -231,7 +234,8 @@ private:
         if (state_.chunks.size() < chunk_count_) state_.chunks.resize(chunk_count_);
         state_.bins.fit(chunk_count_ * (grid_.total + 2));
         executor_.parallel_for(chunk_count_, 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t c = first; c < last; ++c) set_up_chunk(c, begin + c * size, std::min(end, begin + (c + 1) * size));
+            for (std::size_t c = first; c < last; ++c)
+                set_up_chunk(c, begin + c * size, std::min(end, begin + (c + 1) * size));
         });
         for (std::size_t c = 0; c < chunk_count_; ++c) {
             detail::SetupCounts const& n = state_.chunks[c].counts;
@@ -337,8 +341,10 @@ private:
     /// Copies a tile out; past the caches where the image is too large to be found there again.
     template <class T>
     void store_rows(detail::TileJob const& job, T const* from, ImageView<T> const& to) const {
-        detail::TileRows const rows{to.row(job.y0) + job.x0, to.stride * static_cast<std::ptrdiff_t>(sizeof(T)), job.y1 - job.y0};
-        bool const aligned = (reinterpret_cast<std::uintptr_t>(rows.first) | static_cast<std::uintptr_t>(rows.stride_bytes)) % 64 == 0;
+        detail::TileRows const rows{to.row(job.y0) + job.x0, to.stride * static_cast<std::ptrdiff_t>(sizeof(T)),
+                                    job.y1 - job.y0};
+        bool const aligned =
+            (reinterpret_cast<std::uintptr_t>(rows.first) | static_cast<std::uintptr_t>(rows.stride_bytes)) % 64 == 0;
         if (streams_ && aligned && job.x1 - job.x0 == detail::tile_size) {
             kernel_->stream(rows, from);
             return;

@@ -44,8 +44,7 @@ struct Clip4 {
     float const y = position[1] - job.origin[1];
     float const z = position[2] - job.origin[2];
     float clip[4];
-    for (int r = 0; r < 4; ++r)
-        clip[r] = ((job.row[r][0] * x + job.row[r][1] * y) + job.row[r][2] * z) + job.row[r][3];
+    for (int r = 0; r < 4; ++r) clip[r] = ((job.row[r][0] * x + job.row[r][1] * y) + job.row[r][2] * z) + job.row[r][3];
     return {clip[0], clip[1], clip[2], clip[3]};
 }
 
@@ -82,7 +81,8 @@ template <class Viewport>
 
 /// First and last pixel whose centre lies in [low, high) of snapped coordinates; empty when first > last.
 ///
-/// Exact for the top-left rule: a centre at the greatest x or y of a triangle is never covered, one at the least may be.
+/// Exact for the top-left rule: a centre at the greatest x or y of a triangle is never covered, one at the least may
+/// be.
 [[nodiscard]] inline std::int32_t first_pixel(std::int32_t low) noexcept { return (low + 127) >> fraction_bits; }
 [[nodiscard]] inline std::int32_t last_pixel(std::int32_t high) noexcept { return (high - 129) >> fraction_bits; }
 
@@ -99,7 +99,8 @@ struct Oriented {
 };
 
 [[nodiscard]] inline std::int64_t area_of(Corner const& a, Corner const& b, Corner const& c) noexcept {
-    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
+    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
+           (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
 }
 
 /// expects: `area` is theirs and not 0.
@@ -152,8 +153,8 @@ struct DepthGradient {
     double const z0 = static_cast<double>(t.z[0]);
     double const g1 = (static_cast<double>(t.z[1]) - z0) * scale;
     double const g2 = (static_cast<double>(t.z[2]) - z0) * scale;
-    double const at_shifted = (static_cast<double>(fraction20) * 0.00390625) * g1 +
-                              (static_cast<double>(fraction01) * 0.00390625) * g2;
+    double const at_shifted =
+        (static_cast<double>(fraction20) * 0.00390625) * g1 + (static_cast<double>(fraction01) * 0.00390625) * g2;
     return {z0 + at_shifted, g1, g2};
 }
 
@@ -168,7 +169,8 @@ struct DepthGradient {
 }
 
 /// Depth of a regular triangle from its shifted edges: the formula of every kernel.
-[[nodiscard]] inline float regular_depth(float z0, float g1, float g2, std::int32_t edge20, std::int32_t edge01) noexcept {
+[[nodiscard]] inline float regular_depth(float z0, float g1, float g2, std::int32_t edge20,
+                                         std::int32_t edge01) noexcept {
     return z0 + (static_cast<float>(edge20) * g1 + static_cast<float>(edge01) * g2);
 }
 

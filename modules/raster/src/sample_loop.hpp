@@ -48,8 +48,7 @@ std::uint64_t draw_regular(TileJob const& job, Record const& r, PixelRange const
     for (std::int32_t y = range.y0; y < range.y1; ++y) {
         for (std::int32_t x = range.x0; x < range.x1; ++x) {
             std::int32_t e[3];
-            for (int i = 0; i < 3; ++i)
-                e[i] = r.edge[i] + r.step_x[i] * (x - r.min_x) + r.step_y[i] * (y - r.min_y);
+            for (int i = 0; i < 3; ++i) e[i] = r.edge[i] + r.step_x[i] * (x - r.min_x) + r.step_y[i] * (y - r.min_y);
             if ((e[0] | e[1] | e[2]) < 0) continue;
             written += write_sample(job, r, x, y, regular_depth(r.z0, r.g1, r.g2, e[2], e[0]), accept);
         }

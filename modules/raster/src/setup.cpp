@@ -79,7 +79,8 @@ Fate set_regular(Oriented const& t, Record& record) {
     return Fate::drawn;
 }
 
-Fate make_record(SetupJob const& job, Corner const& a, Corner const& b, Corner const& c, Facing facing, Record& record) {
+Fate make_record(SetupJob const& job, Corner const& a, Corner const& b, Corner const& c, Facing facing,
+                 Record& record) {
     std::int64_t const area = area_of(a, b, c);
     if (area == 0) return Fate::degenerate;
     if ((facing == Facing::positive_only && area < 0) || (facing == Facing::negative_only && area > 0))
@@ -130,7 +131,7 @@ int choose_apex(Polygon const& p, bool positive) {
 
 Polygon clipped_polygon(SetupJob const& job, std::array<std::uint32_t, 3> const& index) {
     VertexJob const& vertex = *job.vertex;
-    ViewportTransform const viewport{vertex.half_width, vertex.half_height, vertex.offset_x, vertex.offset_y,
+    ViewportTransform const viewport{vertex.half_width, vertex.half_height, vertex.offset_x,  vertex.offset_y,
                                      vertex.guard_x,    vertex.guard_y,     vertex.clip_depth};
     std::array<math::vec4, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -162,8 +163,8 @@ Fate clip_and_draw(SetupJob const& job, std::array<std::uint32_t, 3> const& inde
     Fate best = Fate::no_sample;
     for (int k = 0; k + 2 < polygon.count; ++k) {
         Record& record = *sink.room(1);
-        Fate const fate = make_record(job, polygon.at(apex), polygon.at(apex + k + 1), polygon.at(apex + k + 2),
-                                      Facing::any, record);
+        Fate const fate =
+            make_record(job, polygon.at(apex), polygon.at(apex + k + 1), polygon.at(apex + k + 2), Facing::any, record);
         if (fate == Fate::drawn) {
             record.id = id;
             ++sink.size;

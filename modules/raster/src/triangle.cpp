@@ -86,7 +86,8 @@ ViewportTransform make_viewport(Rect const& viewport, bool clip_depth) noexcept 
 }
 
 std::uint32_t outcode(math::vec4 const& clip, ViewportTransform const& viewport) noexcept {
-    return detail::outcode_of({clip.x, clip.y, clip.z, clip.w}, viewport.guard_x, viewport.guard_y, viewport.clip_depth);
+    return detail::outcode_of({clip.x, clip.y, clip.z, clip.w}, viewport.guard_x, viewport.guard_y,
+                              viewport.clip_depth);
 }
 
 ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners, ViewportTransform const& viewport) noexcept {

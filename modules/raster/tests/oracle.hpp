@@ -58,7 +58,8 @@ inline int signed_cover(SnappedTriangle const& t, std::int32_t px, std::int32_t 
 /// How often a polygon winds round the pixel's centre.
 inline int winding(std::vector<SnappedVertex> const& polygon, std::int32_t px, std::int32_t py) {
     int sum = 0;
-    for (std::size_t i = 2; i < polygon.size(); ++i) sum += signed_cover({polygon[0], polygon[i - 1], polygon[i]}, px, py);
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        sum += signed_cover({polygon[0], polygon[i - 1], polygon[i]}, px, py);
     return sum;
 }
 

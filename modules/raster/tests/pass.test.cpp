@@ -63,9 +63,14 @@ struct Canvas {
     PassStats stats;
 
     Canvas(std::int32_t w, std::int32_t h)
-        : width(w), height(h), depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), -7.0F), id(depth.size(), 7U) {}
+        : width(w),
+          height(h),
+          depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), -7.0F),
+          id(depth.size(), 7U) {}
 
-    VisibilityTarget target() { return {make_image(depth.data(), width, height), make_image(id.data(), width, height)}; }
+    VisibilityTarget target() {
+        return {make_image(depth.data(), width, height), make_image(id.data(), width, height)};
+    }
 
     Canvas& draw(std::vector<Draw> const& draws, PassConfig const& config, core::ExecutorRef executor) {
         stats = camera_pass(draws, target(), config, workspace, executor);
@@ -117,7 +122,8 @@ Mesh shuffled_grid(int n, Random& random, Place place) {
             triangles.push_back({a + 1, below + 1, below});
         }
     for (std::size_t i = triangles.size(); i > 1; --i)
-        std::swap(triangles[i - 1], triangles[static_cast<std::size_t>(random.in(0, static_cast<std::int32_t>(i) - 1))]);
+        std::swap(triangles[i - 1],
+                  triangles[static_cast<std::size_t>(random.in(0, static_cast<std::int32_t>(i) - 1))]);
     for (auto& t : triangles) {
         std::rotate(t.begin(), t.begin() + random.in(0, 2), t.end());
         if (random.in(0, 1) == 0) std::swap(t[1], t[2]);
@@ -130,7 +136,8 @@ Mesh shuffled_grid(int n, Random& random, Place place) {
 std::vector<int> hits(Canvas& canvas, Mesh const& mesh, math::mat4 const& matrix, Kernel kernel) {
     std::vector<int> count(canvas.id.size(), 0);
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        Indices const one(mesh.indices.begin() + static_cast<std::ptrdiff_t>(i), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+        Indices const one(mesh.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                          mesh.indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
         canvas.draw({draw_of(mesh.positions, one, matrix)}, {.kernel = kernel});
         for (std::size_t p = 0; p < count.size(); ++p) count[p] += canvas.id[p] == 0 ? 1 : 0;
     }
@@ -164,7 +171,8 @@ struct Mixed {
             math::vec3 const at{random.unit() * 6.0F - 3.0F, random.unit() * 6.0F - 3.0F, -random.unit() * 4.0F};
             auto const start = static_cast<std::uint32_t>(positions.size());
             for (int c = 0; c < 3; ++c)
-                positions.push_back(at + math::vec3{random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F} * reach);
+                positions.push_back(at + math::vec3{random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F} *
+                                             reach);
             for (std::uint32_t c = 0; c < 3; ++c) indices.push_back(start + c);
             if (i % 9 == 0) indices.insert(indices.end(), {start, start + 2, start + 1});  // the same depths again
         }
@@ -187,15 +195,18 @@ TEST_CASE("every pixel of a tessellated square is hit exactly once", "[raster][w
         Mesh mesh = shuffled_grid(8, random, [&](float x, float y) {
             bool const border = x * x == 1.0F || y * y == 1.0F;
             float const shift = border ? 0.0F : 0.12F;
-            return math::vec3(1.5F * x + shift * (random.unit() - 0.5F), 1.5F * y + shift * (random.unit() - 0.5F), random.unit());
+            return math::vec3(1.5F * x + shift * (random.unit() - 0.5F), 1.5F * y + shift * (random.unit() - 0.5F),
+                              random.unit());
         });
         Canvas canvas(48, 40);
-        std::vector<int> const count = hits(canvas, mesh, math::mat4(1.0F), round % 2 == 0 ? Kernel::scalar : Kernel::simd);
+        std::vector<int> const count =
+            hits(canvas, mesh, math::mat4(1.0F), round % 2 == 0 ? Kernel::scalar : Kernel::simd);
         CHECK(std::all_of(count.begin(), count.end(), [](int n) { return n == 1; }));
     }
 }
 
-TEST_CASE("a ground through the near plane and the guard band has no gaps and no double hits", "[raster][watertight][clip]") {
+TEST_CASE("a ground through the near plane and the guard band has no gaps and no double hits",
+          "[raster][watertight][clip]") {
     Random random{12};
     for (int round = 0; round < 6; ++round) {
         float const height = 0.2F + random.unit() * 3.0F;
@@ -244,7 +255,8 @@ TEST_CASE("a scene's image has the hash it always had", "[raster][golden]") {
     Mixed const scene(22, 5000);
     Canvas canvas(512, 512);
     CHECK(canvas.draw(scene.draws()).hash() == 3055176256846827067ULL);
-    CHECK(canvas.draw(scene.draws(), {.depth = math::Depth::forward, .range = DepthRange::clamp}).hash() == 8060857697277855813ULL);
+    CHECK(canvas.draw(scene.draws(), {.depth = math::Depth::forward, .range = DepthRange::clamp}).hash() ==
+          8060857697277855813ULL);
 }
 
 TEST_CASE("a pass equals a brute-force search for the nearest triangle at each pixel", "[raster]") {
@@ -312,7 +324,7 @@ TEST_CASE("many triangles in a small image are drawn in batches with the same re
 TEST_CASE("bad data is left out and counted", "[raster][bad]") {
     float const nan = std::numeric_limits<float>::quiet_NaN();
     float const inf = std::numeric_limits<float>::infinity();
-    Positions const positions{{-1, -1, 0.5F}, {1, -1, 0.5F},     {-1, 1, 0.5F},   {nan, 0, 0.5F},
+    Positions const positions{{-1, -1, 0.5F}, {1, -1, 0.5F},    {-1, 1, 0.5F}, {nan, 0, 0.5F},
                               {0, inf, 0.5F}, {3e38F, 0, 0.5F}, {0, 0, -3e38F}};
     Indices const indices{0, 1, 2, 0, 1, 3, 4, 1, 2, 0, 5, 2, 0, 1, 6, 0, 1, 7, 0, 1, 0xFFFFFFFFU, 0, 0, 1, 2, 1};
     Draw draw = draw_of(positions, indices);
@@ -324,10 +336,12 @@ TEST_CASE("bad data is left out and counted", "[raster][bad]") {
         CHECK(canvas.stats.bad_index == 2);
         CHECK(canvas.stats.degenerate == 1);
         CHECK(canvas.stats.drawn == 1);
-        CHECK(std::count(canvas.id.begin(), canvas.id.end(), 0U) == static_cast<std::ptrdiff_t>(canvas.stats.samples_written));
+        CHECK(std::count(canvas.id.begin(), canvas.id.end(), 0U) ==
+              static_cast<std::ptrdiff_t>(canvas.stats.samples_written));
     }
     DrawFaults const faults = validate(draw);
-    CHECK((faults.any() && faults.bad_index_triangles == 2 && faults.not_finite_positions == 2 && faults.loose_indices == 2));
+    CHECK((faults.any() && faults.bad_index_triangles == 2 && faults.not_finite_positions == 2 &&
+           faults.loose_indices == 2));
     draw.clip_from_relative[0][0] = nan;
     CHECK(Canvas(8, 8).draw({draw}).stats.drawn == 0);
 }
@@ -350,15 +364,19 @@ TEST_CASE("any bits in vertices, matrix and indices give the same image from bot
         Positions positions(40);
         for (math::vec3& p : positions) p = math::vec3{number(), number(), number()};
         Indices indices;
-        for (int i = 0; i < 75; ++i) indices.push_back(static_cast<std::uint32_t>(random.in(0, random.in(0, 20) == 0 ? 50 : 39)));
+        for (int i = 0; i < 75; ++i)
+            indices.push_back(static_cast<std::uint32_t>(random.in(0, random.in(0, 20) == 0 ? 50 : 39)));
         Draw draw = draw_of(positions, indices, round % 3 == 0 ? camera() : math::mat4(1.0F));
         for (int i = random.in(0, 6); i > 0; --i) draw.clip_from_relative[random.in(0, 3)][random.in(0, 3)] = number();
         draw.origin = math::vec3{number(), 0.0F, 0.0F};
         PassConfig config{.depth = (round & 1) != 0 ? math::Depth::forward : math::Depth::reversed,
                           .range = (round & 2) != 0 ? DepthRange::clip : DepthRange::clamp,
                           .kernel = Kernel::scalar};
-        if ((round & 4) != 0) config.viewport = Rect{random.in(-16384, 16384), random.in(-100, 100), random.in(1, 16384), random.in(1, 200)};
-        if ((round & 8) != 0) config.scissor = Rect{random.in(-20, 60), random.in(-20, 60), random.in(0, 60), random.in(0, 90)};
+        if ((round & 4) != 0)
+            config.viewport =
+                Rect{random.in(-16384, 16384), random.in(-100, 100), random.in(1, 16384), random.in(1, 200)};
+        if ((round & 8) != 0)
+            config.scissor = Rect{random.in(-20, 60), random.in(-20, 60), random.in(0, 60), random.in(0, 90)};
         scalar.draw({draw}, config);
         config.kernel = Kernel::simd;
         simd.draw({draw}, config);
@@ -386,15 +404,20 @@ TEST_CASE("a scissor rectangle limits what is cleared and drawn, and nothing els
     Mixed const scene(26, 2000);
     Canvas whole(200, 150);
     whole.draw(scene.draws());
-    for (Rect const scissor : {Rect{0, 0, 64, 64}, Rect{37, 41, 99, 57}, Rect{-10, 140, 1000, 1000}, Rect{90, 90, 0, 5}}) {
+    for (Rect const scissor :
+         {Rect{0, 0, 64, 64}, Rect{37, 41, 99, 57}, Rect{-10, 140, 1000, 1000}, Rect{90, 90, 0, 5}}) {
         Canvas part(200, 150);
         part.draw(scene.draws(), {.scissor = scissor});
         int wrong = 0;
         for (std::int32_t y = 0; y < 150; ++y)
             for (std::int32_t x = 0; x < 200; ++x) {
-                bool const in = x >= scissor.x && y >= scissor.y && x < scissor.x + scissor.width && y < scissor.y + scissor.height;
+                bool const in =
+                    x >= scissor.x && y >= scissor.y && x < scissor.x + scissor.width && y < scissor.y + scissor.height;
                 auto const p = static_cast<std::size_t>(y * 200 + x);
-                wrong += (in ? part.id[p] == whole.id[p] && part.depth[p] == whole.depth[p] : part.id[p] == 7 && part.depth[p] == -7.0F) ? 0 : 1;
+                wrong += (in ? part.id[p] == whole.id[p] && part.depth[p] == whole.depth[p]
+                             : part.id[p] == 7 && part.depth[p] == -7.0F)
+                             ? 0
+                             : 1;
             }
         CHECK(wrong == 0);
     }
@@ -409,7 +432,10 @@ TEST_CASE("a viewport moved by whole pixels moves the image", "[raster][viewport
     int wrong = 0;
     for (std::int32_t y = 0; y < 70; ++y)
         for (std::int32_t x = 0; x < 120; ++x)
-            wrong += home.id[static_cast<std::size_t>((y + 20) * 120 + x)] == away.id[static_cast<std::size_t>(y * 300 + x + 70)] ? 0 : 1;
+            wrong += home.id[static_cast<std::size_t>((y + 20) * 120 + x)] ==
+                             away.id[static_cast<std::size_t>(y * 300 + x + 70)]
+                         ? 0
+                         : 1;
     CHECK(wrong == 0);
 }
 
@@ -526,9 +552,11 @@ TEST_CASE("large triangles equal the oracle pixel by pixel", "[raster][size]") {
         Positions positions;
         for (SnappedVertex& v : t) {
             v = {random.in(-700'000, 1'200'000), random.in(-300'000, 300'000), random.unit()};
-            positions.push_back(math::vec3(static_cast<float>(v.x) / 262144.0F - 1.0F, static_cast<float>(v.y) / 8192.0F - 1.0F, v.z));
+            positions.push_back(
+                math::vec3(static_cast<float>(v.x) / 262144.0F - 1.0F, static_cast<float>(v.y) / 8192.0F - 1.0F, v.z));
         }
-        canvas.draw({draw_of(positions, {})}, {.depth = math::Depth::forward, .kernel = i % 2 == 0 ? Kernel::scalar : Kernel::simd});
+        canvas.draw({draw_of(positions, {})},
+                    {.depth = math::Depth::forward, .kernel = i % 2 == 0 ? Kernel::scalar : Kernel::simd});
         int wrong = 0;
         for (std::int32_t y = 0; y < 64; ++y)
             for (std::int32_t x = 0; x < 2048; ++x) {
@@ -536,7 +564,8 @@ TEST_CASE("large triangles equal the oracle pixel by pixel", "[raster][size]") {
                 bool const covered = oracle::signed_cover(t, x, y) != 0;
                 wrong += covered == (canvas.id[p] == 0) ? 0 : 1;
                 if (!covered) continue;
-                double const error = static_cast<double>(static_cast<oracle::Quad>(canvas.depth[p]) - oracle::depth(t, x, y));
+                double const error =
+                    static_cast<double>(static_cast<oracle::Quad>(canvas.depth[p]) - oracle::depth(t, x, y));
                 wrong += std::abs(error) <= 0x1p-24 * 1.000001 * static_cast<double>(canvas.depth[p]) ? 0 : 1;
             }
         CHECK(wrong == 0);
@@ -548,8 +577,13 @@ TEST_CASE("an alpha test cuts holes where the texture is clear", "[raster][alpha
     std::uint8_t const rgba[8] = {1, 2, 3, 0, 4, 5, 6, 255};
     std::vector<math::vec2> const uv{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     AlphaTest const test{.uv = std::span<math::vec2 const>(uv),
-                         .texture = {.alpha = rgba + 3, .width = 2, .height = 1, .stride_bytes = 4, .row_bytes = 8,
-                                     .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp}};
+                         .texture = {.alpha = rgba + 3,
+                                     .width = 2,
+                                     .height = 1,
+                                     .stride_bytes = 4,
+                                     .row_bytes = 8,
+                                     .wrap_u = Wrap::clamp,
+                                     .wrap_v = Wrap::clamp}};
     // The right border is three times as far away as the left one, so u = 1/2 is seen at x = 0.5 of the way.
     Positions const positions{{-1, -1, -1}, {3, -3, -3}, {-1, 1, -1}, {3, 3, -3}};
     Indices const indices{0, 1, 2, 2, 1, 3};

@@ -22,14 +22,20 @@ SnappedTriangle random_triangle(Random& random) {
     std::int32_t const lo = -2 * size_units;
     std::int32_t const hi = 3 * size_units;
     auto const anywhere = [&] { return SnappedVertex{random.in(lo, hi), random.in(lo, hi), z()}; };
-    auto const near_image = [&] { return SnappedVertex{random.in(-512, size_units + 512), random.in(-512, size_units + 512), z()}; };
-    auto const on_centre = [&] { return SnappedVertex{random.in(-2, size + 2) * 256 + 128, random.in(-2, size + 2) * 256 + 128, z()}; };
+    auto const near_image = [&] {
+        return SnappedVertex{random.in(-512, size_units + 512), random.in(-512, size_units + 512), z()};
+    };
+    auto const on_centre = [&] {
+        return SnappedVertex{random.in(-2, size + 2) * 256 + 128, random.in(-2, size + 2) * 256 + 128, z()};
+    };
     SnappedVertex const a = near_image();
     switch (random.in(0, 7)) {
         case 0: return {near_image(), near_image(), near_image()};
         case 1: return {anywhere(), anywhere(), anywhere()};
         case 2: {  // sub-pixel
-            auto const close = [&] { return SnappedVertex{a.x + random.in(-200, 200), a.y + random.in(-200, 200), z()}; };
+            auto const close = [&] {
+                return SnappedVertex{a.x + random.in(-200, 200), a.y + random.in(-200, 200), z()};
+            };
             return {a, close(), close()};
         }
         case 3: return {on_centre(), on_centre(), on_centre()};
@@ -38,7 +44,9 @@ SnappedTriangle random_triangle(Random& random) {
             return {a, b, {(a.x + b.x) / 2 + random.in(-2, 2), (a.y + b.y) / 2 + random.in(-2, 2), z()}};
         }
         case 5: {  // huge: as far as the guard band lets corners go
-            auto const far = [&] { return SnappedVertex{random.in(-5'900'000, 5'900'000), random.in(-5'900'000, 5'900'000), z()}; };
+            auto const far = [&] {
+                return SnappedVertex{random.in(-5'900'000, 5'900'000), random.in(-5'900'000, 5'900'000), z()};
+            };
             return {far(), far(), far()};
         }
         case 6: {  // a huge sliver through the image
@@ -68,8 +76,10 @@ struct Canvas {
     Workspace workspace;
     core::SerialExecutor executor;
 
-    PassStats draw(std::vector<math::vec3> const& positions, math::mat4 const& matrix, math::Depth depth_order, Kernel kernel) {
-        Draw const draw{.positions = std::span<math::vec3 const>(positions), .indices = {}, .clip_from_relative = matrix};
+    PassStats draw(std::vector<math::vec3> const& positions, math::mat4 const& matrix, math::Depth depth_order,
+                   Kernel kernel) {
+        Draw const draw{
+            .positions = std::span<math::vec3 const>(positions), .indices = {}, .clip_from_relative = matrix};
         return camera_pass({&draw, 1}, {make_image(depth.data(), size, size), make_image(id.data(), size, size)},
                            {.depth = depth_order, .kernel = kernel}, workspace, executor);
     }
@@ -92,7 +102,8 @@ int differences(Canvas& canvas, SnappedTriangle const& t, Kernel kernel) {
             if (covered && ok) {
                 oracle::Quad const exact = oracle::depth(t, x, y);
                 oracle::Quad const error = static_cast<oracle::Quad>(canvas.depth[at]) - exact;
-                double const bound = 0x1p-24 * 1.000001 * (4.0 * (static_cast<double>(exact) - least_z) + 2.0 * static_cast<double>(exact));
+                double const bound = 0x1p-24 * 1.000001 *
+                                     (4.0 * (static_cast<double>(exact) - least_z) + 2.0 * static_cast<double>(exact));
                 ok = (error < 0 ? -error : error) <= static_cast<oracle::Quad>(bound + 0x1p-140);
                 ok = ok && canvas.depth[at] == std::clamp(depth_at(t, x, y), 0.0F, 1.0F);
             }
@@ -140,12 +151,14 @@ int clipped_differences(Canvas& canvas, std::vector<math::vec3> const& corners, 
     for (std::size_t i = 0; i < 3; ++i) clip[i] = transformed(camera(), corners[i]);
     ClipPolygon const polygon = clip_triangle(clip, viewport);
     std::vector<SnappedVertex> snapped;
-    for (int i = 0; i < polygon.count; ++i) snapped.push_back(snap(polygon.corner[static_cast<std::size_t>(i)], viewport));
+    for (int i = 0; i < polygon.count; ++i)
+        snapped.push_back(snap(polygon.corner[static_cast<std::size_t>(i)], viewport));
     canvas.draw(corners, camera(), math::Depth::reversed, kernel);
     int wrong = 0;
     for (std::int32_t y = 0; y < size; ++y)
         for (std::int32_t x = 0; x < size; ++x)
-            if ((oracle::winding(snapped, x, y) != 0) != (canvas.id[static_cast<std::size_t>(y * size + x)] == 0)) ++wrong;
+            if ((oracle::winding(snapped, x, y) != 0) != (canvas.id[static_cast<std::size_t>(y * size + x)] == 0))
+                ++wrong;
     return wrong;
 }
 
@@ -159,7 +172,8 @@ void compare_clipped(std::uint64_t count, std::uint64_t seed) {
         for (int c = 0; c < 3; ++c)
             corners.push_back(math::vec3((random.unit() - 0.5F) * scale, (random.unit() - 0.5F) * scale,
                                          (0.3F - random.unit()) * (random.in(0, 1) == 0 ? 1.0F : scale)));
-        wrong += static_cast<std::uint64_t>(clipped_differences(canvas, corners, (i & 1U) != 0 ? Kernel::scalar : Kernel::simd));
+        wrong += static_cast<std::uint64_t>(
+            clipped_differences(canvas, corners, (i & 1U) != 0 ? Kernel::scalar : Kernel::simd));
     }
     CHECK(wrong == 0);
 }
@@ -187,7 +201,8 @@ TEST_CASE("a triangle may be given in any order of its corners", "[raster][depth
         std::int32_t const x = random.in(0, size - 1);
         std::int32_t const y = random.in(0, size - 1);
         CHECK((covers(t, x, y) == covers(turned, x, y) && covers(t, x, y) == covers(mirrored, x, y)));
-        if (covers(t, x, y)) CHECK((depth_at(t, x, y) == depth_at(turned, x, y) && depth_at(t, x, y) == depth_at(mirrored, x, y)));
+        if (covers(t, x, y))
+            CHECK((depth_at(t, x, y) == depth_at(turned, x, y) && depth_at(t, x, y) == depth_at(mirrored, x, y)));
     }
 }
 

@@ -20,7 +20,7 @@ enum class Cull : std::uint8_t {
 
 /// 16- or 32-bit indices, three for each triangle; without any, positions come in threes as they lie.
 class IndexSpan {
-public:
+  public:
     constexpr IndexSpan() noexcept = default;
     constexpr IndexSpan(std::span<std::uint32_t const> wide) noexcept  // NOLINT: converts as spans do
         : wide_(wide.data()), size_(wide.size()) {}
@@ -36,7 +36,7 @@ public:
         return wide_ != nullptr ? wide_[i] : narrow_[i];
     }
 
-private:
+  private:
     std::uint32_t const* wide_ = nullptr;
     std::uint16_t const* narrow_ = nullptr;
     std::size_t size_ = 0;

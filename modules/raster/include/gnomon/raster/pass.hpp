@@ -41,21 +41,22 @@ struct PassConfig {
     DepthRange range = DepthRange::clip;
     Load load = Load::clear;
     Kernel kernel = Kernel::automatic;
-    std::optional<Rect> viewport{};  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
-    std::optional<Rect> scissor{};   ///< The only pixels cleared and drawn; the whole target by default.
+    std::optional<Rect>
+        viewport{};  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
+    std::optional<Rect> scissor{};  ///< The only pixels cleared and drawn; the whole target by default.
 };
 
 /// Where a pass's triangles went. `triangles` is the sum of the eight counts below it up to `drawn`.
 struct PassStats {
     std::uint64_t triangles = 0;
-    std::uint64_t bad_index = 0;   ///< An index beyond the positions: left out.
-    std::uint64_t not_finite = 0;  ///< A corner that is NaN, infinite or beyond 2^60 in clip space: left out.
-    std::uint64_t outside = 0;     ///< Wholly outside the clip volume or the scissor rectangle.
-    std::uint64_t degenerate = 0;  ///< No area once snapped.
-    std::uint64_t culled = 0;      ///< By the way it faces.
-    std::uint64_t no_sample = 0;   ///< Small, and covers no pixel centre. Exact, not a guess.
-    std::uint64_t drawn = 0;       ///< Went on to the tiles.
-    std::uint64_t clipped = 0;     ///< Went through the clipper; counted above as well.
+    std::uint64_t bad_index = 0;        ///< An index beyond the positions: left out.
+    std::uint64_t not_finite = 0;       ///< A corner that is NaN, infinite or beyond 2^60 in clip space: left out.
+    std::uint64_t outside = 0;          ///< Wholly outside the clip volume or the scissor rectangle.
+    std::uint64_t degenerate = 0;       ///< No area once snapped.
+    std::uint64_t culled = 0;           ///< By the way it faces.
+    std::uint64_t no_sample = 0;        ///< Small, and covers no pixel centre. Exact, not a guess.
+    std::uint64_t drawn = 0;            ///< Went on to the tiles.
+    std::uint64_t clipped = 0;          ///< Went through the clipper; counted above as well.
     std::uint64_t samples_written = 0;  ///< Depth tests passed, in draw order.
 
     friend bool operator==(PassStats const&, PassStats const&) noexcept = default;
@@ -65,7 +66,7 @@ struct PassStats {
 ///
 /// One pass at a time. About 16 bytes a vertex and 80 a triangle that covers a sample.
 class Workspace {
-public:
+  public:
     Workspace();
     ~Workspace();
     Workspace(Workspace&&) noexcept;
@@ -75,7 +76,7 @@ public:
     struct State;
     [[nodiscard]] State& state() noexcept { return *state_; }
 
-private:
+  private:
     std::unique_ptr<State> state_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace gnomon::raster {
 
-inline constexpr std::int32_t max_size_px = 16384;     ///< Largest width and height of a target or viewport.
-inline constexpr std::uint32_t no_triangle = ~0U;      ///< What a visibility target holds where nothing was drawn.
+inline constexpr std::int32_t max_size_px = 16384;  ///< Largest width and height of a target or viewport.
+inline constexpr std::uint32_t no_triangle = ~0U;   ///< What a visibility target holds where nothing was drawn.
 
 /// Pixels [x, x + width) x [y, y + height); empty when a size is not above 0.
 struct Rect {
@@ -54,7 +54,7 @@ template <class T>
 ///
 /// A 16-bit target rounds each depth to the nearest code first and compares codes, as a GPU does.
 class DepthTarget {
-public:
+  public:
     DepthTarget(ImageView<float> image) noexcept : f32_(image) {}  // NOLINT: either image is a target
     DepthTarget(ImageView<std::uint16_t> image) noexcept : unorm16_(image), is_unorm16_(true) {}  // NOLINT
 
@@ -64,7 +64,7 @@ public:
     [[nodiscard]] std::int32_t width() const noexcept { return is_unorm16_ ? unorm16_.width : f32_.width; }
     [[nodiscard]] std::int32_t height() const noexcept { return is_unorm16_ ? unorm16_.height : f32_.height; }
 
-private:
+  private:
     ImageView<float> f32_;
     ImageView<std::uint16_t> unorm16_;
     bool is_unorm16_ = false;

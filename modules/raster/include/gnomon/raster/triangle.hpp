@@ -1,7 +1,9 @@
 #pragma once
-// The pure pieces of the rasterizer: clip, snap, cover, depth. What the kernels do is defined here, one sample at a time.
+// The pure pieces of the rasterizer: clip, snap, cover, depth. What the kernels do is defined here, one sample at a
+// time.
 //
-// Fixed-point image coordinates: 256 units to a pixel, y down; the sample of pixel (x, y) is at (256x + 128, 256y + 128).
+// Fixed-point image coordinates: 256 units to a pixel, y down; the sample of pixel (x, y) is at (256x + 128, 256y +
+// 128).
 
 #include <gnomon/math/vec.hpp>
 #include <gnomon/raster/target.hpp>
@@ -13,7 +15,7 @@ namespace gnomon::raster {
 
 inline constexpr std::int32_t subpixel_units = 256;
 inline constexpr float max_clip_coordinate = 1.152921504606846976e18F;  ///< 2^60; a corner beyond is "not finite".
-inline constexpr float min_w = 5.9604644775390625e-8F;                  ///< 2^-24; w below is clipped in any depth range.
+inline constexpr float min_w = 5.9604644775390625e-8F;  ///< 2^-24; w below is clipped in any depth range.
 
 /// How clip space lands in the image.
 struct ViewportTransform {
@@ -45,7 +47,8 @@ struct ClipPolygon {
 /// get the same corner whatever their order, so a clipped surface has no cracks.
 ///
 /// expects: three finite corners (`outcode` without bit 7).
-[[nodiscard]] ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners, ViewportTransform const& viewport) noexcept;
+[[nodiscard]] ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners,
+                                        ViewportTransform const& viewport) noexcept;
 
 /// A corner in the image: fixed point, and z / w.
 struct SnappedVertex {
