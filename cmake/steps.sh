@@ -12,7 +12,8 @@ quietly() {
         rm -f "$log"
     else
         code=$?
-        tail -n 200 "$log" >&2
+        # What went well, ninja's "[1/9] Building ...", is left out.
+        grep -v '^\[[0-9]*/[0-9]*\] ' "$log" | tail -n 200 >&2 || true
         rm -f "$log"
         return "$code"
     fi
