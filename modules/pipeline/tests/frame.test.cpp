@@ -199,6 +199,55 @@ TEST_CASE("a light beyond its range and outside of its cone lights nothing, for 
     CHECK(errors(frame, request("shadow-map", {{"resolution", "64"}}), serial).wrong == 0);
 }
 
+TEST_CASE("a frame's samples and truth are these, on every machine", "[pipeline][golden]") {
+    core::SerialExecutor const serial;
+    std::vector<std::uint64_t> lit_counts;
+    std::uint64_t hash = 1469598103934665603U;
+    for (pipeline::Light const& light : test_lights()) {
+        pipeline::Frame const frame = frame_with(serial, light);
+        CHECK(frame.samples.size() == 52'808);
+        std::uint64_t lit = 0;
+        for (std::size_t i = 0; i < frame.lit.size(); ++i) {
+            lit += frame.lit[i];
+            hash = (hash ^ (std::uint64_t{frame.samples.triangle[i]} * 2 + frame.lit[i])) * 1099511628211U;
+        }
+        lit_counts.push_back(lit);
+    }
+    CHECK(lit_counts == std::vector<std::uint64_t>{10'796, 23'320, 6'012});
+    CHECK(hash == 13'767'974'548'373'506'259U);
+}
+
+TEST_CASE("a light in a house, on the ground and on a corner is decided like any other", "[pipeline][frame]") {
+    core::SerialExecutor const serial;
+    for (dvec3 const& place : {dvec3(0.0, 0.0, 0.0), dvec3(-13.9, 4.0, -13.9), dvec3(-500.0, 0.0, -500.0),
+                               dvec3(-150.0, 110.0, -260.0), dvec3(20.0, -3.0, -60.0)}) {
+        pipeline::Frame const frame = frame_with(serial, pipeline::bulb(place), 96);
+        CHECK(errors(frame, request("ray"), serial).wrong == 0);
+        pipeline::Measures const m = errors(frame, request("shadow-map", {{"resolution", "512"}}), serial);
+        CAPTURE(place.x, place.y, place.z, m.wrong_fraction, m.false_lit, m.false_shadow);
+        CHECK(m.wrong_fraction < 0.05);
+    }
+}
+
+TEST_CASE("a city of ten centimetres has the shadows of one of a kilometre", "[pipeline][frame]") {
+    core::TbbExecutor const threads(2);
+    Stage small = {city().scene, {}};
+    constexpr double scale = 1.0 / 8192.0;
+    for (scene::Instance& instance : small.scene.instances)
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 3; ++row) instance.world_from_mesh[column][row] *= scale;
+    small.geometry = scene::flatten(small.scene);
+    math::View view = street_view(128);
+    pipeline::Frame const here = pipeline::make_frame(city().scene, city().geometry, view, test_sun(), threads).value();
+    view.eye_m *= scale;
+    view.near_m *= scale;
+    pipeline::Frame const there = pipeline::make_frame(small.scene, small.geometry, view, test_sun(), threads).value();
+    CHECK(there.lit == here.lit);
+    auto const a = errors(here, request("shadow-map"), threads);
+    auto const b = errors(there, request("shadow-map"), threads);
+    CHECK(std::abs(a.wrong_fraction - b.wrong_fraction) < 5e-4);
+}
+
 TEST_CASE("a view of nothing is a frame without samples", "[pipeline][frame]") {
     core::SerialExecutor const serial;
     math::PerspectiveConfig away;
