@@ -52,7 +52,7 @@ bool same_values(PlannedRun const& a, PlannedRun const& b) {
 
 Outcome<PlannedRun> plan_run(pipeline::Technique const& technique, Settings const& settings) {
     auto params = pipeline::make_params(technique, settings);
-    if (!params) return usage_error("--param " + params.failure().message);
+    if (!params) return usage_error("--param: " + params.failure().message);
     PlannedRun run{&technique, *std::move(params), std::string(technique.name), {}};
     for (pipeline::Setting const& setting : settings) run.label += fmt::format(" {}={}", setting.name, setting.text);
     run.slug = slug_from(run.label);
@@ -62,7 +62,7 @@ Outcome<PlannedRun> plan_run(pipeline::Technique const& technique, Settings cons
 Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std::vector<ParamOption> const& params) {
     for (std::string const& name : techniques)
         if (auto found = pipeline::find_technique(name); !found)
-            return usage_error("--techniques " + found.failure().message);
+            return usage_error("--techniques: " + found.failure().message);
     for (std::size_t i = 0; i < params.size(); ++i) {
         ParamOption const& param = params[i];
         std::string const whole = fmt::format("--param {}.{}", param.technique, param.name);
