@@ -16,7 +16,7 @@ main { max-width: 1120px; margin: 0 auto; padding: 40px 24px 72px; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 6px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
 h2 { font-size: 20px; margin: 48px 0 12px; font-weight: 650; }
 h3 { font-size: 16px; margin: 0; font-weight: 650; overflow-wrap: anywhere; }
-p { max-width: 78ch; margin: 0 0 12px; }
+p { max-width: 78ch; margin: 0 0 12px; text-wrap: pretty; }
 .lead { font-size: 18px; color: var(--soft); margin-bottom: 24px; }
 .soft { color: var(--soft); font-size: 14px; }
 code { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
