@@ -3,6 +3,8 @@
 
 #include <gnomon/core/executor.hpp>
 #include <gnomon/pipeline/frame.hpp>
+#include <gnomon/predicates/target.hpp>
+#include <gnomon/predicates/triangle_list.hpp>
 #include <gnomon/sample.hpp>
 #include <gnomon/trace.hpp>
 
