@@ -1,6 +1,7 @@
 #include <gnomon/check/check.hpp>
 #include <gnomon/math/texel.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,21 @@ std::int64_t wrapped_by_division(std::int64_t i, std::int64_t n, Wrap wrap) {
     std::int64_t const m = modulo(i, 2 * n);
     return m < n ? m : 2 * n - 1 - m;
 }
+
+using math::AlphaTexture;
+
+/// 2 x 2 texels with these alphas, row by row.
+struct Texels {
+    std::array<std::uint8_t, 16> bytes{};
+
+    Texels(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
+        bytes[3] = a;
+        bytes[7] = b;
+        bytes[11] = c;
+        bytes[15] = d;
+    }
+    [[nodiscard]] AlphaTexture texture(Wrap wrap) const { return {bytes, math::ivec2(2, 2), wrap, wrap}; }
+};
 
 auto const modes = check::element_of({Wrap::repeat, Wrap::clamp, Wrap::mirror});
 
@@ -45,4 +61,49 @@ TEST_CASE("any coordinate has taps in range and a weight in [0, 1)", "[math][tex
                        CHECK((tap.first >= 0 && tap.first < size && tap.second >= 0 && tap.second < size));
                        CHECK((tap.weight >= 0.0 && tap.weight < 1.0));
                    });
+}
+
+TEST_CASE("alpha_at gives the texel at its centre and the mean half way", "[math][texel]") {
+    Texels const texels(0, 255, 51, 102);
+    AlphaTexture const t = texels.texture(Wrap::clamp);
+    CHECK(alpha_at(t, math::dvec2(0.25, 0.25)) == 0.0);
+    CHECK(alpha_at(t, math::dvec2(0.75, 0.25)) == 1.0);
+    CHECK(alpha_at(t, math::dvec2(0.25, 0.75)) == 0.2);
+    CHECK(alpha_at(t, math::dvec2(0.5, 0.25)) == 0.5);
+    CHECK(alpha_at(t, math::dvec2(0.5, 0.5)) == (0.0 + 255.0 + 51.0 + 102.0) / 4.0 / 255.0);
+}
+
+TEST_CASE("alpha_at wraps as glTF says", "[math][texel]") {
+    Texels const texels(0, 255, 0, 255);
+    // At u = 0 the taps are texels -1 and 0.
+    CHECK(alpha_at(texels.texture(Wrap::clamp), math::dvec2(0.0, 0.25)) == 0.0);
+    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(0.0, 0.25)) == 0.5);
+    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(0.0, 0.25)) == 0.0);
+    CHECK(alpha_at(texels.texture(Wrap::clamp), math::dvec2(9.0, 0.25)) == 1.0);
+    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(9.25, 0.25)) == 0.0);
+    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(1.25, 0.25)) == 1.0);
+    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(-0.25, 0.25)) == 0.0);
+    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(-0.25, 0.25)) == 1.0);
+}
+
+TEST_CASE("alpha_at takes any numbers and any texture", "[math][texel]") {
+    Texels const texels(255, 255, 255, 255);
+    double const inf = std::numeric_limits<double>::infinity();
+    for (Wrap const wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirror})
+        for (double const u : {inf, -inf, std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300, 1e-300, -0.0, 1e15})
+            CHECK(alpha_at(texels.texture(wrap), math::dvec2(u, 0.3)) == 1.0);
+}
+
+TEST_CASE("a texture is complete when it holds the texels that its size promises", "[math][texel]") {
+    Texels const texels(255, 255, 255, 255);
+    AlphaTexture texture = texels.texture(Wrap::repeat);
+    CHECK(is_complete(texture));
+    CHECK_FALSE(is_complete(AlphaTexture{}));
+    texture.size_px = math::ivec2(2, 3);
+    CHECK_FALSE(is_complete(texture));
+    texture.size_px = math::ivec2(2147483647, 2147483647);
+    CHECK_FALSE(is_complete(texture));
+    texture.size_px = math::ivec2(4, 4);
+    texture.channels = 1;
+    CHECK(is_complete(texture));
 }

@@ -10,15 +10,6 @@ namespace gnomon::pipeline {
 
 namespace {
 
-raster::Wrap wrap_of(scene::Wrap wrap) noexcept {
-    switch (wrap) {
-        case scene::Wrap::clamp_to_edge: return raster::Wrap::clamp;
-        case scene::Wrap::mirrored_repeat: return raster::Wrap::mirror;
-        case scene::Wrap::repeat: break;
-    }
-    return raster::Wrap::repeat;
-}
-
 raster::Draw draw_of(scene::Geometry const& geometry, std::uint32_t first, std::uint32_t count) {
     raster::Draw draw;
     draw.positions = std::span<math::vec3 const>(geometry.positions);
@@ -96,13 +87,7 @@ DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, 
             scene::Texture const& texture = *base_texture(scene, material);
             raster::AlphaTest test;
             test.uv = std::span<math::vec2 const>(geometry.uv);
-            test.texture = {image.rgba.data() + 3,
-                            image.size_px.x,
-                            image.size_px.y,
-                            4,
-                            std::ptrdiff_t{4} * image.size_px.x,
-                            wrap_of(texture.wrap_u),
-                            wrap_of(texture.wrap_v)};
+            test.texture = {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v};
             test.factor = static_cast<double>(material.base_color.w);
             test.cutoff = rule.cutoff;
             tested.emplace_back(list.draws.size(), list.alpha_tests.size());

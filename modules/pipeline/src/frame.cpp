@@ -132,15 +132,6 @@ std::vector<std::uint32_t> draw_ids(Frame& frame, core::ExecutorRef executor) {
     return ids;
 }
 
-trace::Wrap trace_wrap(scene::Wrap wrap) noexcept {
-    switch (wrap) {
-        case scene::Wrap::clamp_to_edge: return trace::Wrap::clamp;
-        case scene::Wrap::mirrored_repeat: return trace::Wrap::mirror;
-        case scene::Wrap::repeat: break;
-    }
-    return trace::Wrap::repeat;
-}
-
 /// The truth's alpha tables, if any material has holes.
 void collect_alpha(Frame const& frame, FrameState& state) {
     for (scene::Material const& material : frame.scene->materials) {
@@ -153,8 +144,7 @@ void collect_alpha(Frame const& frame, FrameState& state) {
             scene::Image const& image = *base_image(*frame.scene, material);
             scene::Texture const& texture = *base_texture(*frame.scene, material);
             alpha.texture = static_cast<std::uint32_t>(state.textures.size());
-            state.textures.push_back(
-                {image.rgba, image.size_px, trace_wrap(texture.wrap_u), trace_wrap(texture.wrap_v)});
+            state.textures.push_back({image.rgba, image.size_px, texture.wrap_u, texture.wrap_v});
         }
         state.masked = state.masked || alpha.is_masked;
         state.materials.push_back(alpha);

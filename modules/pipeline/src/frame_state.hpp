@@ -23,7 +23,7 @@ struct FrameState {
     trace::Bvh bvh;
     bool masked = false;  ///< Some triangles have holes; otherwise the lists below are empty.
     std::vector<trace::AlphaMaterial> materials;
-    std::vector<trace::AlphaTexture> textures;
+    std::vector<math::AlphaTexture> textures;
     std::vector<math::vec2> corner_uv;
 };
 

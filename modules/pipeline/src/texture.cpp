@@ -1,6 +1,6 @@
 #include "texture.hpp"
 
-#include <gnomon/math/scalar.hpp>
+#include <gnomon/math/texel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,34 +17,6 @@ std::array<float, 256> make_decode_table() {
         table[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
     }
     return table;
-}
-
-std::int32_t wrapped(std::int32_t i, std::int32_t size, scene::Wrap wrap) noexcept {
-    switch (wrap) {
-        case scene::Wrap::clamp_to_edge: return std::clamp(i, 0, size - 1);
-        case scene::Wrap::mirrored_repeat: {
-            std::int32_t const period = 2 * size;
-            std::int32_t const m = ((i % period) + period) % period;
-            return m < size ? m : period - 1 - m;
-        }
-        case scene::Wrap::repeat: break;
-    }
-    return ((i % size) + size) % size;
-}
-
-/// The texel left of or at `coordinate` and how far beyond its centre it lies.
-struct Place {
-    std::int32_t texel;
-    float fraction;
-};
-
-Place place_of(float coordinate, std::int32_t size) noexcept {
-    // Whole repeats are dropped before the cast, so that no coordinate leaves the range of int.
-    float const unit = math::is_finite(coordinate) ? coordinate : 0.0F;
-    float const near_zero = std::fabs(unit) < 16384.0F ? unit : unit - 2.0F * std::floor(unit * 0.5F);
-    float const x = near_zero * static_cast<float>(size) - 0.5F;
-    float const whole = std::floor(x);
-    return {static_cast<std::int32_t>(whole), x - whole};
 }
 
 }  // namespace
@@ -85,15 +57,17 @@ MipChain::MipChain(scene::Image const& image) {
 }
 
 math::vec3 MipChain::bilinear(Level const& level, math::vec2 const& uv, scene::Texture const& use) const noexcept {
-    Place const u = place_of(uv.x, level.size_px.x);
-    Place const v = place_of(uv.y, level.size_px.y);
+    math::Tap const u = math::make_tap(static_cast<double>(uv.x), level.size_px.x, use.wrap_u);
+    math::Tap const v = math::make_tap(static_cast<double>(uv.y), level.size_px.y, use.wrap_v);
+    auto const u_weight = static_cast<float>(u.weight);
+    auto const v_weight = static_cast<float>(v.weight);
     math::vec3 color(0.0F);
     for (std::int32_t k = 0; k < 4; ++k) {
-        std::int32_t const x = wrapped(u.texel + (k & 1), level.size_px.x, use.wrap_u);
-        std::int32_t const y = wrapped(v.texel + (k >> 1), level.size_px.y, use.wrap_v);
+        std::int32_t const x = (k & 1) != 0 ? u.second : u.first;
+        std::int32_t const y = (k >> 1) != 0 ? v.second : v.first;
         std::uint8_t const* const texel = level.rgba + 4 * (std::ptrdiff_t{y} * level.size_px.x + x);
         float const weight =
-            ((k & 1) != 0 ? u.fraction : 1.0F - u.fraction) * ((k >> 1) != 0 ? v.fraction : 1.0F - v.fraction);
+            ((k & 1) != 0 ? u_weight : 1.0F - u_weight) * ((k >> 1) != 0 ? v_weight : 1.0F - v_weight);
         color +=
             math::vec3(linear_from_srgb(texel[0]), linear_from_srgb(texel[1]), linear_from_srgb(texel[2])) * weight;
     }

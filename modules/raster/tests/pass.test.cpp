@@ -577,13 +577,10 @@ TEST_CASE("an alpha test cuts holes where the texture is clear", "[raster][alpha
     std::uint8_t const rgba[8] = {1, 2, 3, 0, 4, 5, 6, 255};
     std::vector<math::vec2> const uv{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
     AlphaTest const test{.uv = std::span<math::vec2 const>(uv),
-                         .texture = {.alpha = rgba + 3,
-                                     .width = 2,
-                                     .height = 1,
-                                     .stride_bytes = 4,
-                                     .row_bytes = 8,
-                                     .wrap_u = Wrap::clamp,
-                                     .wrap_v = Wrap::clamp}};
+                         .texture = {.texels = rgba,
+                                     .size_px = {2, 1},
+                                     .wrap_u = math::Wrap::clamp,
+                                     .wrap_v = math::Wrap::clamp}};
     // The right border is three times as far away as the left one, so u = 1/2 is seen at x = 0.5 of the way.
     Positions const positions{{-1, -1, -1}, {3, -3, -3}, {-1, 1, -1}, {3, 3, -3}};
     Indices const indices{0, 1, 2, 2, 1, 3};

@@ -28,9 +28,9 @@ vec2 pair_or(tinygltf::Value const* value, vec2 const& fallback) {
     return {number_or(&value->Get(0), fallback.x), number_or(&value->Get(1), fallback.y)};
 }
 
-Wrap wrap_of(int mode) noexcept {
-    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp_to_edge;
-    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirrored_repeat : Wrap::repeat;
+math::Wrap wrap_of(int mode) noexcept {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return math::Wrap::clamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? math::Wrap::mirror : math::Wrap::repeat;
 }
 
 class MaterialLoader {

@@ -36,11 +36,11 @@ char const* name_of(AlphaMode mode) noexcept {
     return "OPAQUE";
 }
 
-std::uint64_t wrap_code(Wrap wrap) noexcept {
+std::uint64_t wrap_code(math::Wrap wrap) noexcept {
     switch (wrap) {
-        case Wrap::repeat: return 10497;
-        case Wrap::clamp_to_edge: return 33071;
-        case Wrap::mirrored_repeat: return 33648;
+        case math::Wrap::repeat: return 10497;
+        case math::Wrap::clamp: return 33071;
+        case math::Wrap::mirror: return 33648;
     }
     return 10497;
 }

@@ -272,7 +272,7 @@ TEST_CASE("materials keep colour, alpha, sides and the texture's transform", "[s
     CHECK(m.emissive == math::vec3(0.5F, 0.0F, 0.0F));
     CHECK(m.metallic == 0.0F);
     REQUIRE(s.textures.size() == 1);
-    CHECK(s.textures[0] == scene::Texture{0, scene::Wrap::clamp_to_edge, scene::Wrap::mirrored_repeat, true});
+    CHECK(s.textures[0] == scene::Texture{0, math::Wrap::clamp, math::Wrap::mirror, true});
     // The missing image costs the picture, not the scene.
     CHECK(s.notes.failed_images == 1);
     CHECK(s.images[0].rgba == std::vector<std::uint8_t>(4, 255));

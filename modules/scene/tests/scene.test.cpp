@@ -20,7 +20,7 @@ scene::Scene small() {
     s.meshes.push_back({"", {p}});
     s.instances.push_back({"", 0, math::dmat4(1.0)});
     s.images.push_back({"", {1, 1}, {0, 0, 0, 0}});
-    s.textures.push_back({0, scene::Wrap::repeat, scene::Wrap::repeat, false});
+    s.textures.push_back({0, math::Wrap::repeat, math::Wrap::repeat, false});
     s.cameras.emplace_back();
     s.lights.emplace_back();
     return s;

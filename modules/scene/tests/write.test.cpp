@@ -35,7 +35,7 @@ void add_surfaces(scene::Scene& s) {
     s.images.push_back({"dots", {3, 2}, {}});
     for (int i = 0; i < 24; ++i) s.images[0].rgba.push_back(static_cast<std::uint8_t>(i * 11));
     s.images.push_back({"", {1, 1}, {1, 2, 3, 4}});
-    s.textures = {{0, scene::Wrap::clamp_to_edge, scene::Wrap::mirrored_repeat, true}, {0, scene::Wrap::repeat, scene::Wrap::repeat, false}, {1, scene::Wrap::repeat, scene::Wrap::repeat, false}};
+    s.textures = {{0, math::Wrap::clamp, math::Wrap::mirror, true}, {0, math::Wrap::repeat, math::Wrap::repeat, false}, {1, math::Wrap::repeat, math::Wrap::repeat, false}};
     for (std::uint32_t t = 0; t < 3; ++t) {
         scene::Material m;
         m.name = "material " + std::to_string(t);

@@ -5,12 +5,13 @@
 
 #include "scenes.hpp"
 
-#include <limits>
+#include <array>
+#include <cstdint>
 
 using namespace gnomon;
 using trace::AlphaMaterial;
-using trace::AlphaTexture;
-using trace::Wrap;
+using math::AlphaTexture;
+using math::Wrap;
 
 namespace {
 
@@ -29,52 +30,15 @@ struct Texels {
 
 }  // namespace
 
-TEST_CASE("alpha_at gives the texel at its centre and the mean half way", "[trace][alpha]") {
-    Texels const texels(0, 255, 51, 102);
-    AlphaTexture const t = texels.texture(Wrap::clamp);
-    CHECK(alpha_at(t, math::dvec2(0.25, 0.25)) == 0.0);
-    CHECK(alpha_at(t, math::dvec2(0.75, 0.25)) == 1.0);
-    CHECK(alpha_at(t, math::dvec2(0.25, 0.75)) == 0.2);
-    CHECK(alpha_at(t, math::dvec2(0.5, 0.25)) == 0.5);
-    CHECK(alpha_at(t, math::dvec2(0.5, 0.5)) == (0.0 + 255.0 + 51.0 + 102.0) / 4.0 / 255.0);
-}
-
-TEST_CASE("alpha_at wraps as glTF says", "[trace][alpha]") {
-    Texels const texels(0, 255, 0, 255);
-    // At u = 0 the taps are texels -1 and 0.
-    CHECK(alpha_at(texels.texture(Wrap::clamp), math::dvec2(0.0, 0.25)) == 0.0);
-    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(0.0, 0.25)) == 0.5);
-    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(0.0, 0.25)) == 0.0);
-    CHECK(alpha_at(texels.texture(Wrap::clamp), math::dvec2(9.0, 0.25)) == 1.0);
-    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(9.25, 0.25)) == 0.0);
-    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(1.25, 0.25)) == 1.0);
-    CHECK(alpha_at(texels.texture(Wrap::mirror), math::dvec2(-0.25, 0.25)) == 0.0);
-    CHECK(alpha_at(texels.texture(Wrap::repeat), math::dvec2(-0.25, 0.25)) == 1.0);
-}
-
-TEST_CASE("alpha_at takes any numbers and any texture", "[trace][alpha]") {
-    Texels const texels(255, 255, 255, 255);
-    double const inf = std::numeric_limits<double>::infinity();
-    for (Wrap const wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirror})
-        for (double const u : {inf, -inf, std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300, 1e-300, -0.0, 1e15})
-            CHECK(alpha_at(texels.texture(wrap), math::dvec2(u, 0.3)) == 1.0);
-    CHECK(alpha_at(AlphaTexture{}, math::dvec2(0.5, 0.5)) == 1.0);
-    AlphaTexture too_short = texels.texture(Wrap::repeat);
-    too_short.size_px = math::ivec2(2, 3);
-    CHECK(alpha_at(too_short, math::dvec2(0.5, 0.5)) == 1.0);
-    too_short.size_px = math::ivec2(2147483647, 2147483647);
-    CHECK(alpha_at(too_short, math::dvec2(0.5, 0.5)) == 1.0);
-}
-
 TEST_CASE("solid is alpha at the cutoff or above; unmasked is solid", "[trace][alpha]") {
     Texels const texels(51, 51, 51, 51);
     std::array const textures{texels.texture(Wrap::repeat)};
     math::dvec2 const uv(0.5, 0.5);
-    CHECK(is_solid({false, 1.0F, 0.9F, 0}, textures, uv));
-    CHECK(is_solid({true, 1.0F, 0.2F - 1e-7F, 0}, textures, uv));
-    CHECK_FALSE(is_solid({true, 1.0F, 0.2F + 1e-7F, 0}, textures, uv));
-    CHECK(is_solid({true, 0.5F, 0.5F, AlphaMaterial::no_texture}, textures, uv));
-    CHECK_FALSE(is_solid({true, 0.4999F, 0.5F, 77}, textures, uv));
+    CHECK(trace::is_solid({false, 1.0F, 0.9F, 0}, textures, uv));
+    CHECK(trace::is_solid({true, 1.0F, 0.2F - 1e-7F, 0}, textures, uv));
+    CHECK_FALSE(trace::is_solid({true, 1.0F, 0.2F + 1e-7F, 0}, textures, uv));
+    CHECK(trace::is_solid({true, 0.5F, 0.5F, AlphaMaterial::no_texture}, textures, uv));
+    CHECK_FALSE(trace::is_solid({true, 0.4999F, 0.5F, 77}, textures, uv));
 }
 
 TEST_CASE("a masked triangle casts the shadow of its solid half", "[trace][alpha]") {

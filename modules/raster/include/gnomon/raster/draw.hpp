@@ -2,6 +2,7 @@
 // What is drawn: triangles in the caller's own buffers, a matrix, and nothing copied.
 
 #include <gnomon/core/strided_span.hpp>
+#include <gnomon/math/texel.hpp>
 #include <gnomon/math/vec.hpp>
 
 #include <cstddef>
@@ -42,29 +43,10 @@ class IndexSpan {
     std::size_t size_ = 0;
 };
 
-/// How a texture coordinate outside [0, 1] finds its texel.
-enum class Wrap : std::uint8_t {
-    repeat,
-    mirror,
-    clamp,
-};
-
-/// The 8-bit alpha channel of a texture: mip 0. One byte per texel, `stride_bytes` from texel to texel, so the alpha
-/// of an interleaved RGBA image is a view of it.
-struct AlphaTexture {
-    std::uint8_t const* alpha = nullptr;
-    std::int32_t width = 0;
-    std::int32_t height = 0;
-    std::ptrdiff_t stride_bytes = 1;
-    std::ptrdiff_t row_bytes = 0;
-    Wrap wrap_u = Wrap::repeat;
-    Wrap wrap_v = Wrap::repeat;
-};
-
 /// Makes a draw's triangles holes where their alpha is below the cutoff: mip 0, bilinear, >= cutoff, in double.
 struct AlphaTest {
     core::StridedSpan<math::vec2> uv;  ///< One for each position.
-    AlphaTexture texture;
+    math::AlphaTexture texture;
     double factor = 1.0;  ///< Multiplies the texture's alpha (glTF: baseColorFactor's).
     double cutoff = 0.5;
 };

@@ -6,6 +6,7 @@
 // plain 32-bit numbers; `none` names nothing. `validate` says whether they all hold.
 
 #include <gnomon/core/result.hpp>
+#include <gnomon/math/texel.hpp>
 #include <gnomon/math/vec.hpp>
 
 #include <array>
@@ -37,13 +38,6 @@ enum class AlphaMode : std::uint8_t {
     blend,  ///< Alpha is coverage.
 };
 
-/// How a texture continues outside [0, 1].
-enum class Wrap : std::uint8_t {
-    repeat,
-    clamp_to_edge,
-    mirrored_repeat,
-};
-
 /// Pixels as stored in the file: 8-bit RGBA, rows from the top, colours sRGB-encoded, alpha linear, not premultiplied.
 struct Image {
     std::string name;
@@ -55,8 +49,8 @@ struct Image {
 
 struct Texture {
     std::uint32_t image = none;
-    Wrap wrap_u = Wrap::repeat;
-    Wrap wrap_v = Wrap::repeat;
+    math::Wrap wrap_u = math::Wrap::repeat;
+    math::Wrap wrap_v = math::Wrap::repeat;
     bool nearest = false;  ///< The file asks for unfiltered magnification.
 
     friend bool operator==(Texture const&, Texture const&) = default;
