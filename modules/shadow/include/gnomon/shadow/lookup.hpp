@@ -57,12 +57,18 @@ struct Prepared {
     bool nearer_is_greater = false;
 };
 
+/// A plane whose cosine is at most this may face away for all that float can tell: two unit vectors (three roundings
+/// each), two for the point relative to the light, five for the dot product and its division, at most 2^-24 each. Such
+/// a plane catches less than a millionth of the light, so calling it shadow is never seen; calling it lit would be a coin
+/// tossed per sample where the light runs along walls.
+inline constexpr float edge_on_cos = 13.0F * 0x1p-24F;
+
 [[nodiscard]] inline Prepared prepare(MapView const& map, math::vec3 const& position, math::vec3 const& normal,
                                       LookupConfig const& config) noexcept {
     Prepared ready;
     ready.receiver = receiver_at(map, position, normal);
     Receiver& at = ready.receiver;
-    ready.faces_away = at.in_front && at.cos_angle < 0.0F;
+    ready.faces_away = at.in_front && at.cos_angle <= edge_on_cos;
     if (!at.in_front || ready.faces_away) return ready;
     if (config.bias.normal_offset != 0.0F) {
         math::vec3 const moved = offset_position(at, position, normal, config.bias);
