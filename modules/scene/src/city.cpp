@@ -143,7 +143,7 @@ math::ivec2 spiral(int i) noexcept {
 void add_city_views(Scene& scene) {
     double const near_m = 0.5;
     double const far_m = 2000.0;
-    scene.cameras.push_back(looking_at("air", {-230.0, 120.0, 260.0}, {40.0, 8.0, -40.0}, sixty_degrees_rad));
+    scene.cameras.push_back(looking_at("air", {-222.2, 120.0, 420.0}, {-165.0, 0.0, 235.0}, sixty_degrees_rad));
     scene.cameras.push_back(
         looking_at("street", {-222.2, 1.7, -414.3}, dvec3(-222.2, 1.7, -414.3) + dvec3(0.35, 0.06, 1.0), sixty_degrees_rad));
     scene.cameras.push_back(looking_at("far", {-560.0, 420.0, 760.0}, {0.0, 0.0, 40.0}, sixty_degrees_rad * 0.75));
