@@ -71,7 +71,7 @@ inline constexpr float bend_max_tan = 8.0F;
 [[nodiscard]] inline float automatic_bias(MapView const& map, Receiver const& at, math::vec3 const& position, int taps,
                                           bool receiver_plane) noexcept {
     auto const largest = [](math::vec3 const& v) {
-        return std::fmax(std::fmax(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+        return glm::max(glm::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
     };
     float const place_m = 4.0F * detail::half_ulp * (largest(position) + largest(position - map.eye));
     float const magnitude = map.perspective ? std::abs(map.depth_scale) + std::abs(at.depth) : 1.0F;
@@ -86,22 +86,22 @@ inline constexpr float bend_max_tan = 8.0F;
 ///     metres = texel (0.5 + 0.1 min(tan, 8))
 [[nodiscard]] inline float bend_allowance_m(Receiver const& at) noexcept {
     return at.texel_m *
-           (detail::bend_constant_px + detail::bend_slope_px * std::fmin(at.tan_angle, detail::bend_max_tan));
+           (detail::bend_constant_px + detail::bend_slope_px * glm::min(at.tan_angle, detail::bend_max_tan));
 }
 
 /// Depth units for a move of `metres` toward the light, never past half the way to it.
 [[nodiscard]] inline float depth_of_move(MapView const& map, Receiver const& at, float metres) noexcept {
     if (!map.perspective) return metres * at.depth_per_m;
     float const d = at.distance_m;
-    float const nearer = std::fmax(d - metres, 0.5F * d);
-    return std::abs(map.depth_offset) * std::fmin(metres, 0.5F * d) / (d * nearer);
+    float const nearer = glm::max(d - metres, 0.5F * d);
+    return std::abs(map.depth_offset) * glm::min(metres, 0.5F * d) / (d * nearer);
 }
 
 /// The whole bias at a receiver, without the normal offset (which moves the receiver itself, see `offset_position`).
 [[nodiscard]] inline Bias bias_at(MapView const& map, Receiver const& at, math::vec3 const& position,
                                   BiasConfig const& config, int taps) noexcept {
     float const unit_m = config.unit == BiasUnit::texels ? at.texel_m : 1.0F;
-    float const tangent = std::fmin(at.tan_angle, config.max_tan);
+    float const tangent = glm::min(at.tan_angle, config.max_tan);
     float metres = (config.constant + config.slope * tangent) * unit_m;
     if (config.automatic) metres += bend_allowance_m(at);
     Bias bias;
@@ -115,7 +115,7 @@ inline constexpr float bend_max_tan = 8.0F;
 [[nodiscard]] inline math::vec3 offset_position(Receiver const& at, math::vec3 const& position,
                                                 math::vec3 const& normal, BiasConfig const& config) noexcept {
     float const unit_m = config.unit == BiasUnit::texels ? at.texel_m : 1.0F;
-    float const sine = std::sqrt(std::fmax(0.0F, 1.0F - at.cos_angle * at.cos_angle));
+    float const sine = std::sqrt(glm::max(0.0F, 1.0F - at.cos_angle * at.cos_angle));
     return position + normal * (config.normal_offset * unit_m * sine);
 }
 

@@ -6,7 +6,6 @@
 
 #include <gnomon/math/scalar.hpp>
 
-#include <cmath>
 #include <cstdint>
 
 namespace gnomon::shadow {
@@ -44,9 +43,9 @@ struct TapRow {
         row.first = -static_cast<std::int32_t>(limit);
         return row;
     }
-    float const whole = std::floor(start);
-    row.first = static_cast<std::int32_t>(whole);
-    row.fraction = start - whole;
+    row.first = static_cast<std::int32_t>(start);  // toward zero; floor would be a call
+    if (start < static_cast<float>(row.first)) --row.first;
+    row.fraction = start - static_cast<float>(row.first);
     return row;
 }
 

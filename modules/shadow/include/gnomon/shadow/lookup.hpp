@@ -85,6 +85,9 @@ inline constexpr float edge_on_cos = 13.0F * 0x1p-24F;
     return ready;
 }
 
+/// `x` limited to [0, 1]. Comparisons, because compilers keep std::fmin and std::fmax as calls.
+[[nodiscard]] inline float to_unit(float x) noexcept { return x < 0.0F ? 0.0F : x > 1.0F ? 1.0F : x; }
+
 /// The depth that texel (x, y) is compared with, within what a map can hold: that of the receiver's plane under the
 /// texel's centre where the plane is nearer to the light there, the receiver's own where it is farther.
 ///
@@ -94,8 +97,8 @@ inline constexpr float edge_on_cos = 13.0F * 0x1p-24F;
     float const dx = static_cast<float>(x) + 0.5F - ready.receiver.texel.x;
     float const dy = static_cast<float>(y) + 0.5F - ready.receiver.texel.y;
     float const slide = ready.receiver.gradient.x * dx + ready.receiver.gradient.y * dy;
-    float const depth = ready.depth + (ready.nearer_is_greater ? std::fmax(slide, 0.0F) : std::fmin(slide, 0.0F));
-    return std::fmin(std::fmax(depth, 0.0F), 1.0F);
+    bool const toward_light = ready.nearer_is_greater ? slide > 0.0F : slide < 0.0F;
+    return to_unit(ready.depth + (toward_light ? slide : 0.0F));
 }
 
 /// Calls `visit(x, y, weight, blocked)` for every texel of the filter that lies in the map.
@@ -135,7 +138,7 @@ template <TexelSource Source>
     float shadow = 0.0F;
     for_each_tap(map, texels, ready, config.taps,
                  [&](std::int32_t, std::int32_t, float weight, bool blocked) { shadow += blocked ? weight : 0.0F; });
-    return {std::fmin(std::fmax(1.0F - shadow, 0.0F), 1.0F), ready.bias_m};
+    return {to_unit(1.0F - shadow), ready.bias_m};
 }
 
 }  // namespace gnomon::shadow

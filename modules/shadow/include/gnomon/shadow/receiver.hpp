@@ -60,8 +60,8 @@ struct Receiver {
     at.depth_per_m = map.perspective ? std::abs(map.depth_offset) / (distance * distance) : std::abs(map.depth_scale);
 
     constexpr float least = 1.0F / max_tan;
-    float const sine = std::sqrt(std::fmax(0.0F, 1.0F - at.cos_angle * at.cos_angle));
-    float const cosine = std::fmax(std::abs(at.cos_angle), least);
+    float const sine = std::sqrt(glm::max(0.0F, 1.0F - at.cos_angle * at.cos_angle));
+    float const cosine = glm::max(std::abs(at.cos_angle), least);
     at.tan_angle = sine / cosine;
     float const steep = std::copysign(cosine, map.perspective ? h : nb);
     float const k = map.perspective ? map.depth_offset / (steep * reach) : map.depth_scale / steep;
