@@ -188,7 +188,8 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
     return suggested_view(geometry, options);
 }
 
-Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene) {
+Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene,
+                                             scene::Geometry const& geometry, math::View const& view) {
     scene::Light light;
     if (options.sun) {
         light.direction = of_moderate_length(*options.sun);
@@ -211,7 +212,9 @@ Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene
         return not_found("--light", *options.name, lights, scene.notes);
     }
     if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + name_of(lights, 0)};
-    light = scene::default_sun();
+    light = scene::auto_light(geometry, view);
+    if (light.kind == scene::LightKind::point)
+        return Described<scene::Light>{light, "--point " + text_of(light.position_m)};
     for (int axis = 0; axis < 3; ++axis) light.direction[axis] = std::round(light.direction[axis] * 1e3) / 1e3;
     return Described<scene::Light>{light, "--sun " + text_of(light.direction)};
 }

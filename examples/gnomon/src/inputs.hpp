@@ -31,7 +31,8 @@ struct Described {
 [[nodiscard]] Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedScene const& loaded,
                                                          scene::Geometry const& geometry);
 
-/// The light asked for, else the scene's first, else a sun.
-[[nodiscard]] Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene);
+/// The light asked for, else the scene's first, else a sun, or a lamp where no sun reaches.
+[[nodiscard]] Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene,
+                                                           scene::Geometry const& geometry, math::View const& view);
 
 }  // namespace gnomon::command

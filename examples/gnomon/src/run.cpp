@@ -37,7 +37,7 @@ Outcome<Inputs> gather(RunOptions const& options) {
     scene::Geometry geometry = scene::flatten(loaded->scene);
     auto view = choose_view(options.view, *loaded, geometry);
     if (!view) return std::move(view).failure();
-    auto light = choose_light(options.light, loaded->scene);
+    auto light = choose_light(options.light, loaded->scene, geometry, view->value);
     if (!light) return std::move(light).failure();
     return Inputs{*std::move(loaded), std::move(geometry), *std::move(view), *std::move(light)};
 }

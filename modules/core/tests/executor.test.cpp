@@ -1,6 +1,7 @@
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/core/executor_threads.hpp>
 
 #include <atomic>
 #include <cstddef>
@@ -32,7 +33,7 @@ std::vector<int> visits(E const& executor, std::size_t n, std::size_t grain) {
 }  // namespace
 
 TEST_CASE("every executor visits each index exactly once", "[core][executor]") {
-    TbbExecutor const two(2);
+    ThreadExecutor const three(3);
     BackwardExecutor const backward;
     SerialExecutor const serial;
     ExecutorRef const erased(backward);
@@ -42,12 +43,19 @@ TEST_CASE("every executor visits each index exactly once", "[core][executor]") {
             CHECK(visits(serial, n, grain) == once);
             CHECK(visits(backward, n, grain) == once);
             CHECK(visits(erased, n, grain) == once);
-            CHECK(visits(two, n, grain) == once);
-            CHECK(visits(ExecutorRef(two), n, grain) == once);
+            CHECK(visits(three, n, grain) == once);
+            CHECK(visits(ExecutorRef(three), n, grain) == once);
         }
 }
 
-TEST_CASE("the TBB executor keeps to its number of threads", "[core][executor]") {
+// Debian's oneTBB is not instrumented: the thread sanitizer does not see the order that it keeps.
+#if !defined(__SANITIZE_THREAD__)
+TEST_CASE("the TBB executor visits each index exactly once, on its number of threads", "[core][executor]") {
+    TbbExecutor const two(2);
+    for (std::size_t const n : {0U, 1U, 7U, 1000U})
+        for (std::size_t const grain : {0U, 1U, 64U, 5000U})
+            CHECK(visits(ExecutorRef(two), n, grain) == std::vector<int>(n, 1));
     CHECK(TbbExecutor(1).threads() == 1);
     CHECK(TbbExecutor(7).threads() == 7);
 }
+#endif

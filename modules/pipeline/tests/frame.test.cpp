@@ -1,5 +1,5 @@
 #include <gnomon/check/check.hpp>
-#include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/core/executor_threads.hpp>
 #include <gnomon/pipeline.hpp>
 #include <gnomon/scene/procedural.hpp>
 #include <gnomon/scene/suggest.hpp>
@@ -99,7 +99,7 @@ TEST_CASE("rays are never wrong, whatever the light", "[pipeline][frame]") {
 }
 
 TEST_CASE("a shadow map's error falls as its resolution grows", "[pipeline][shadow-map]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     for (pipeline::Light const& light : test_lights()) {
         pipeline::Frame const frame = frame_with(threads, light);
         double before = 1.0;
@@ -119,7 +119,7 @@ TEST_CASE("a shadow map's error falls as its resolution grows", "[pipeline][shad
 }
 
 TEST_CASE("automatic bias leaves boxes and ground without acne", "[pipeline][shadow-map]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     pipeline::Frame const frame = frame_with(threads, test_sun());
     for (char const* const pcf : {"1", "2", "3", "5"})
         for (char const* const format : {"f32", "unorm16"}) {
@@ -136,7 +136,7 @@ TEST_CASE("automatic bias leaves boxes and ground without acne", "[pipeline][sha
 }
 
 TEST_CASE("forward and reversed maps give the same errors", "[pipeline][shadow-map]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     for (pipeline::Light const& light : test_lights()) {
         pipeline::Frame const frame = frame_with(threads, light);
         auto const forward = errors(frame, request("shadow-map", {{"depth", "forward"}}), threads);
@@ -154,7 +154,7 @@ TEST_CASE("visibilities and pictures are the same for any number of threads", "[
         auto const reference =
             pipeline::compare(one, std::array{request("shadow-map", small), request("ray")}, {}, serial).value();
         for (int const count : {2, 7}) {
-            core::TbbExecutor const threads(count);
+            core::ThreadExecutor const threads(count);
             pipeline::Frame const many = frame_with(threads, light, 128);
             CHECK(many.lit == one.lit);
             CHECK(many.samples.position == one.samples.position);
@@ -230,7 +230,7 @@ TEST_CASE("a light in a house, on the ground and on a corner is decided like any
 }
 
 TEST_CASE("a city of ten centimetres has the shadows of one of a kilometre", "[pipeline][frame]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     Stage small = {city().scene, {}};
     constexpr double scale = 1.0 / 8192.0;
     for (scene::Instance& instance : small.scene.instances)
@@ -312,7 +312,7 @@ TEST_CASE("a map that would not fit in memory is refused with what it needs", "[
 }
 
 TEST_CASE("the same city 1e7 m away has the same shadows", "[pipeline][frame]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     Stage far = {city().scene, {}};
     dvec3 const offset(10'000'384.0, -1024.0, -9'999'360.0);
     for (scene::Instance& instance : far.scene.instances)
@@ -330,7 +330,7 @@ TEST_CASE("the same city 1e7 m away has the same shadows", "[pipeline][frame]") 
 }
 
 TEST_CASE("both depth conventions and an orthographic camera make the same frame's kind", "[pipeline][frame]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     auto const forward = pipeline::make_frame(city().scene, city().geometry, street_view(128, math::Depth::forward),
                                               test_sun(), threads);
     auto const reversed = pipeline::make_frame(city().scene, city().geometry, street_view(128), test_sun(), threads);
@@ -359,7 +359,7 @@ TEST_CASE("both depth conventions and an orthographic camera make the same frame
 }
 
 TEST_CASE("pictures show false-lit and false-shadow samples in their colours", "[pipeline][picture]") {
-    core::TbbExecutor const threads(2);
+    core::ThreadExecutor const threads(2);
     pipeline::Frame const frame = frame_with(threads, test_sun(), 128);
     pipeline::Shading const shading = pipeline::shade(frame, {}, threads);
     std::vector<float> visibility = pipeline::exact_visibility(frame);

@@ -1,5 +1,5 @@
 #include <gnomon/check/check.hpp>
-#include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster.hpp>
 
 #include "oracle.hpp"
@@ -12,20 +12,7 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <thread>
 #include <vector>
-
-// oneTBB's own synchronization is invisible to the thread sanitizer: under it the threads are the tests' own.
-#if defined(__SANITIZE_THREAD__)
-#define GNOMON_TEST_TBB 0
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define GNOMON_TEST_TBB 0
-#endif
-#endif
-#ifndef GNOMON_TEST_TBB
-#define GNOMON_TEST_TBB 1
-#endif
 
 namespace {
 
@@ -144,20 +131,6 @@ std::vector<int> hits(Canvas& canvas, Mesh const& mesh, math::mat4 const& matrix
     return count;
 }
 
-/// Seven real threads, whatever the machine has, which take items in turn.
-struct SevenThreads {
-    template <class F>
-    void parallel_for(std::size_t n, std::size_t /*grain*/, F&& f) const {
-        std::atomic<std::size_t> next{0};
-        std::vector<std::thread> threads;
-        for (int t = 0; t < 7; ++t)
-            threads.emplace_back([&] {
-                for (std::size_t i = next++; i < n; i = next++) f(i, i + 1);
-            });
-        for (std::thread& thread : threads) thread.join();
-    }
-};
-
 /// A scene that takes every path: small, large, clipped, degenerate, equal depths, two draws.
 struct Mixed {
     Positions positions;
@@ -233,22 +206,15 @@ TEST_CASE("the image is the same for 1, 2 and 7 threads, scalar or simd, and any
     CHECK(reference.stats.drawn > 1000);
     PassStats const& s = reference.stats;
     CHECK(s.triangles == s.bad_index + s.not_finite + s.outside + s.degenerate + s.culled + s.no_sample + s.drawn);
-#if GNOMON_TEST_TBB
     for (int threads : {1, 2, 7})
         for (Kernel kernel : {Kernel::scalar, Kernel::simd}) {
-            core::TbbExecutor executor(threads);
+            core::ThreadExecutor executor(threads);
             Canvas canvas(333, 217);
             canvas.draw(scene.draws(), {.kernel = kernel}, executor);
             CAPTURE(threads, static_cast<int>(kernel));
             CHECK(canvas.hash() == reference.hash());
             CHECK(canvas.stats == reference.stats);
         }
-#endif
-    SevenThreads seven;
-    Canvas canvas(333, 217);
-    canvas.draw(scene.draws(), {}, seven);
-    CHECK(canvas.hash() == reference.hash());
-    CHECK(canvas.stats == reference.stats);
 }
 
 TEST_CASE("a scene's image has the hash it always had", "[raster][golden]") {

@@ -1,8 +1,8 @@
 #include <gnomon/check/check.hpp>
+#include <gnomon/core/executor_threads.hpp>
 
 #include <gnomon/sample/image_samples.hpp>
 
-#include "../../predicates/tests/threads.hpp"
 
 #include <array>
 #include <cmath>
@@ -84,7 +84,7 @@ TEST_CASE("an image's samples are the same for any number of threads", "[sample]
     core::SerialExecutor const serial;
     auto const stats = make_view_samples(ground.frame(view, math::dvec3(0.0)), ids, expected, serial);
     for (int const threads : {1, 2, 7}) {
-        hard::Threads const executor{threads};
+        core::ThreadExecutor const executor(threads);
         std::vector<ViewSample> samples(ids.size());
         CHECK(make_view_samples(ground.frame(view, math::dvec3(0.0)), ids, samples, executor) == stats);
         CHECK(samples == expected);

@@ -250,8 +250,6 @@ private:
 
 }  // namespace
 
-Light default_sun() { return detail::sun_light(); }
-
 core::Result<math::View, math::ViewError> make_view(Camera const& camera, math::ivec2 const& size_px, math::Depth depth) {
     bool const perspective = camera.kind == CameraKind::perspective;
     auto framed = [&] {

@@ -110,3 +110,19 @@ TEST_CASE("the default sun is a directional light that shines downward", "[scene
     CHECK(glm::length(sun.direction) == Approx(1.0));
     CHECK(sun.direction.y < -0.5);
 }
+
+TEST_CASE("an open place gets the sun, a closed room a lamp within it", "[scene][suggest]") {
+    scene::Scene const city = scene::make_procedural({.name = "city", .triangles = 52'000}).value();
+    scene::Geometry const streets = scene::flatten(city);
+    math::View const above = scene::make_view(city.cameras.front(), {64, 64}).value();
+    CHECK(scene::auto_light(streets, above).kind == scene::LightKind::directional);
+
+    scene::Scene const closed = box_scene(math::vec3(-2.0F), math::vec3(2.0F), true);
+    scene::Geometry const room = scene::flatten(closed);
+    math::View const inside =
+        scene::make_view(scene::looking_at("", {1.5, 0.0, 1.5}, {-2.0, -0.5, -2.0}, 1.2), {64, 64}).value();
+    scene::Light const lamp = scene::auto_light(room, inside);
+    REQUIRE(lamp.kind == scene::LightKind::point);
+    CHECK(math::contains(room.bounds, math::to_float(lamp.position_m)));
+    CHECK(lamp.position_m.y > 0.0);
+}

@@ -1,10 +1,10 @@
 #include <gnomon/check/check.hpp>
+#include <gnomon/core/executor_threads.hpp>
 
 #include <gnomon/trace/build.hpp>
 #include <gnomon/trace/query.hpp>
 #include <gnomon/trace/validate.hpp>
 
-#include "../../predicates/tests/threads.hpp"
 #include "scenes.hpp"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST_CASE("the hierarchy is the same for any number of threads", "[trace][determ
     trace::Bvh const serial = trace::build_bvh(yard.mesh.list());
     REQUIRE(serial.triangles > 20'000);
     for (int const threads : {1, 2, 7}) {
-        hard::Threads const executor{threads};
+        core::ThreadExecutor const executor(threads);
         CHECK(same_bits(trace::build_bvh(yard.mesh.list(), executor), serial));
     }
 }

@@ -1,9 +1,9 @@
 #include <gnomon/check/check.hpp>
+#include <gnomon/core/executor_threads.hpp>
 
 #include <gnomon/trace/build.hpp>
 #include <gnomon/trace/visibility.hpp>
 
-#include "../../predicates/tests/threads.hpp"
 #include "scenes.hpp"
 
 #include <limits>
@@ -54,7 +54,7 @@ TEST_CASE("visibility sets the bit of every blocked sample, and sums are the sam
     CHECK(stats.in_shadow > 1'000);
     CHECK(stats.invalid == 0);
     for (int const threads : {1, 2, 7}) {
-        hard::Threads const executor{threads};
+        core::ThreadExecutor const executor(threads);
         std::vector<std::uint64_t> bits(expected.size());
         CHECK(visibility(bvh, std::span<Sample const>(samples), bits, executor, trace::VisibilityConfig<>{light}) == stats);
         CHECK(bits == expected);

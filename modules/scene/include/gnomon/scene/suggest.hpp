@@ -29,6 +29,12 @@ struct SuggestedView {
 /// A sun from the upper left, behind the usual viewer: the direction the light goes.
 [[nodiscard]] Light default_sun();
 
+/// The default sun where it reaches at least one in twenty of the points that `view` shows; else, as in a closed room, a
+/// lamp between the eye and what it sees, below the ceiling.
+///
+/// returns: the same on every machine. cost: O(triangles) for a coarse grid, then some hundred rays.
+[[nodiscard]] Light auto_light(Geometry const& geometry, math::View const& view);
+
 /// What `camera` sees, in an image of `size_px`. The vertical extent is the camera's; the image decides the horizontal.
 [[nodiscard]] core::Result<math::View, math::ViewError> make_view(Camera const& camera, math::ivec2 const& size_px,
                                                                    math::Depth depth = math::Depth::reversed);
