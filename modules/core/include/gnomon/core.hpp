@@ -1,5 +1,5 @@
 #pragma once
-// All of core, but for the executors that start threads.
+// All of core, but for the adapters.
 
 #include <gnomon/core/contract.hpp>
 #include <gnomon/core/executor.hpp>

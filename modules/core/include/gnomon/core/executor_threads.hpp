@@ -1,5 +1,5 @@
 #pragma once
-// An executor on plain threads: parallelism with nothing but the standard library.
+// Adapter: an executor on plain threads, with nothing but the standard library. No other header includes it.
 //
 // Threads are started for each call, some 20 us each, so the work should be worth it; a program that has a pool adapts
 // its own in five lines. All synchronization is the standard library's, which the thread sanitizer understands.
