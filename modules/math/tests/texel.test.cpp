@@ -1,7 +1,8 @@
 #include <gnomon/check/check.hpp>
 #include <gnomon/math/texel.hpp>
 
-#include <array>
+#include "texels.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,19 +22,7 @@ std::int64_t wrapped_by_division(std::int64_t i, std::int64_t n, Wrap wrap) {
 }
 
 using math::AlphaTexture;
-
-/// 2 x 2 texels with these alphas, row by row.
-struct Texels {
-    std::array<std::uint8_t, 16> bytes{};
-
-    Texels(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
-        bytes[3] = a;
-        bytes[7] = b;
-        bytes[11] = c;
-        bytes[15] = d;
-    }
-    [[nodiscard]] AlphaTexture texture(Wrap wrap) const { return {bytes, math::ivec2(2, 2), wrap, wrap}; }
-};
+using texels::Texels;
 
 auto const modes = check::element_of({Wrap::repeat, Wrap::clamp, Wrap::mirror});
 

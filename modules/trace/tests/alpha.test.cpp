@@ -3,32 +3,16 @@
 #include <gnomon/trace/alpha.hpp>
 #include <gnomon/trace/build.hpp>
 
+#include "../../math/tests/texels.hpp"
 #include "scenes.hpp"
 
 #include <array>
 #include <cstdint>
 
 using namespace gnomon;
-using trace::AlphaMaterial;
-using math::AlphaTexture;
 using math::Wrap;
-
-namespace {
-
-/// 2 x 2 texels with these alphas, row by row.
-struct Texels {
-    std::array<std::uint8_t, 16> bytes{};
-
-    Texels(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) {
-        bytes[3] = a;
-        bytes[7] = b;
-        bytes[11] = c;
-        bytes[15] = d;
-    }
-    [[nodiscard]] AlphaTexture texture(Wrap wrap) const { return {bytes, math::ivec2(2, 2), wrap, wrap}; }
-};
-
-}  // namespace
+using texels::Texels;
+using trace::AlphaMaterial;
 
 TEST_CASE("solid is alpha at the cutoff or above; unmasked is solid", "[trace][alpha]") {
     Texels const texels(51, 51, 51, 51);
