@@ -10,7 +10,8 @@
 #     [ADAPTERS gnomon/x/y.hpp[=need ...]]  headers that no other header includes, each with the package or module it needs
 #     [NO_UNITY])                      compile the tests and sources one by one
 #
-# tests/*.test.cpp become `NAME_tests` (test `NAME`), bench/*.bench.cpp become `NAME_bench`.
+# tests/*.test.cpp become `NAME_tests` (test `NAME`), bench/*.bench.cpp become `NAME_bench`, each fuzz/X.fuzz.cpp becomes
+# `NAME_X_replay` (test `NAME.fuzz-X`) and, with GNOMON_FUZZ, `NAME_X_fuzz` (cmake/gnomon_fuzz.cmake).
 # Modules are read twice: first only to learn who uses whom, then, in the order of the graph, to make the targets.
 
 # A module may use modules of its own floor and below. Floors 0-1 are header-only.
@@ -22,6 +23,7 @@ set(GNOMON_FLOOR_3 raster vulkan)
 set(GNOMON_FLOOR_4 pipeline)
 
 include(gnomon_checks)
+include(gnomon_fuzz)
 include(gnomon_install)
 
 function(gnomon_floor name out)
@@ -56,6 +58,7 @@ function(gnomon_module name)
   _gnomon_install_module(${name})
   if(GNOMON_BUILD_TESTS)
     _gnomon_tests()
+    _gnomon_fuzz()
     if(GNOMON_BUILD_CHECKS)
       _gnomon_header_checks()
     endif()

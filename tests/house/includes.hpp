@@ -68,7 +68,7 @@ inline bool is_upper_floor_package(std::string const& header) {
     return std::any_of(std::begin(starts), std::end(starts), [&](auto s) { return header.starts_with(s); });
 }
 
-/// Checks one file of a module. `part` is its folder in the module: include, src, tests or bench.
+/// Checks one file of a module. `part` is its folder in the module: include, src, tests, bench or fuzz.
 class IncludeCheck {
 public:
     IncludeCheck(Modules const& modules, std::vector<Finding>& findings) : modules_(modules), findings_(findings) {}
@@ -78,7 +78,7 @@ public:
         if (parts.size() < 4 || !modules_.contains(parts[1])) return;
         name_ = parts[1];
         path_ = path;
-        bool const tests = parts[2] == "tests" || parts[2] == "bench";
+        bool const tests = parts[2] == "tests" || parts[2] == "bench" || parts[2] == "fuzz";
         std::string const own = parts[2] == "include" ? path.substr(path.find("/include/") + 9) : std::string();
         bool const adapter = modules_.at(name_).adapters.contains(own);
         for (auto const& include : includes_of(text)) {
