@@ -3,17 +3,11 @@
 // fit 32 bits. The others, and those that need the clipper, go through the reference, in order. Included by
 // kernel_simd.cpp only.
 
-#include "avx2.hpp"
-#include "pieces.hpp"
+#include "avx2_orient.hpp"
 
 namespace gnomon::raster::detail {
 
 namespace {
-
-/// Corner k of eight triangles.
-struct Corner8 {
-    __m256i x, y, z, code;
-};
 
 GNOMON_AVX2_INLINE __m256i load_pair(Corner const* low, Corner const* high) {
     __m256i const v = _mm256_castsi128_si256(_mm_load_si128(reinterpret_cast<__m128i const*>(low)));
@@ -81,26 +75,6 @@ GNOMON_AVX2_INLINE Bounds8 bounds_of(SetupJob const& job, Corner8 const& a, Corn
     r.max_y = _mm256_min_epi32(r.max_y, all_of(job.y1 - 1));
     r.outside = _mm256_or_si256(is_less(r.max_x, r.min_x), is_less(r.max_y, r.min_y));
     return r;
-}
-
-/// Turns the corners so that the area is positive and corner 0 has the least depth.
-GNOMON_AVX2_INLINE void orient_x8(Corner8 (&v)[3], __m256i area) {
-    Corner8 const b = v[1];
-    v[1] = {select(b.x, v[2].x, area), select(b.y, v[2].y, area), select(b.z, v[2].z, area), b.code};
-    v[2] = {select(v[2].x, b.x, area), select(v[2].y, b.y, area), select(v[2].z, b.z, area), b.code};
-    __m256 const one_first = _mm256_cmp_ps(as_float(v[1].z), as_float(v[0].z), _CMP_LT_OQ);
-    __m256 const nearest = _mm256_blendv_ps(as_float(v[0].z), as_float(v[1].z), one_first);
-    __m256i const two = as_int(_mm256_cmp_ps(as_float(v[2].z), nearest, _CMP_LT_OQ));
-    __m256i const one = as_int(one_first);
-    Corner8 const from[3] = {v[0], v[1], v[2]};
-    for (int i = 0; i < 3; ++i) {
-        Corner8 const& stay = from[i];
-        Corner8 const& by_one = from[(i + 1) % 3];
-        Corner8 const& by_two = from[(i + 2) % 3];
-        v[i] = {select(select(stay.x, by_one.x, one), by_two.x, two),
-                select(select(stay.y, by_one.y, one), by_two.y, two),
-                select(select(stay.z, by_one.z, one), by_two.z, two), stay.code};
-    }
 }
 
 struct Edge8 {
@@ -216,7 +190,7 @@ GNOMON_AVX2_INLINE std::uint32_t make_words(SetupJob const& job, Corner8 (&v)[3]
     counts.no_sample += take(alive, sign_bits(bounds.no_sample));
     counts.outside += take(alive, sign_bits(bounds.outside));
     if (alive == 0) return 0;
-    orient_x8(v, area);
+    orient_x8(v, _mm256_abs_epi32(area), area);
     __m256i const sample_x = _mm256_add_epi32(_mm256_slli_epi32(bounds.min_x, fraction_bits), all_of(half_pixel));
     __m256i const sample_y = _mm256_add_epi32(_mm256_slli_epi32(bounds.min_y, fraction_bits), all_of(half_pixel));
     Edge8 const e[3] = {edge_x8(v[0], v[1], sample_x, sample_y), edge_x8(v[1], v[2], sample_x, sample_y),
@@ -264,13 +238,15 @@ GNOMON_AVX2 void avx2_setup(SetupJob const& job, std::size_t begin, std::size_t 
         }
         Corner8 v[3] = {load_corners(job.corners, index), load_corners(job.corners, index + 1),
                         load_corners(job.corners, index + 2)};
-        __m256i const any = _mm256_or_si256(_mm256_or_si256(v[0].code, v[1].code), v[2].code);
+        __m256i const any = _mm256_and_si256(_mm256_or_si256(_mm256_or_si256(v[0].code, v[1].code), v[2].code),
+                                             all_of(static_cast<std::int32_t>(outcode_bits)));
         Bounds8 const bounds = bounds_of(job, v[0], v[1], v[2]);
         std::uint32_t alive = 0xFFU;
         std::uint32_t slow = ~sign_bits(bounds.is_small) & 0xFFU;
         if (!_mm256_testz_si256(any, any)) {
             __m256i const zero = _mm256_setzero_si256();
-            __m256i const common = _mm256_and_si256(_mm256_and_si256(v[0].code, v[1].code), v[2].code);
+            __m256i const common =
+                _mm256_and_si256(_mm256_and_si256(v[0].code, v[1].code), _mm256_and_si256(v[2].code, any));
             __m256i const finite =
                 _mm256_cmpeq_epi32(_mm256_and_si256(any, all_of(static_cast<std::int32_t>(code_not_finite))), zero);
             std::uint32_t const out = sign_bits(_mm256_andnot_si256(_mm256_cmpeq_epi32(common, zero), finite));

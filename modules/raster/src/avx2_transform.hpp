@@ -51,6 +51,19 @@ GNOMON_AVX2_INLINE __m256i outcode_x8(Clip4x8 const& c, VertexJob const& job) {
     return select(all_of(static_cast<std::int32_t>(code_not_finite)), code, as_int(usable));
 }
 
+struct Rounded8 {
+    __m256i value, residue;
+};
+
+/// Pixels to fixed point, and `residue_of` what was rounded.
+GNOMON_AVX2_INLINE Rounded8 rounded_x8(__m256 pixels) {
+    __m256 const scaled = _mm256_mul_ps(pixels, all_of(256.0F));
+    __m256i const value = _mm256_cvtps_epi32(scaled);
+    __m256 const rest =
+        _mm256_mul_ps(_mm256_sub_ps(scaled, _mm256_cvtepi32_ps(value)), all_of(static_cast<float>(residue_scale)));
+    return {value, _mm256_min_epi32(_mm256_cvtps_epi32(rest), all_of(2047))};
+}
+
 GNOMON_AVX2_INLINE void snap_x8(Clip4x8 const& c, VertexJob const& job, __m256i code, Corner* out) {
     __m256i const valid = _mm256_cmpeq_epi32(code, _mm256_setzero_si256());
     __m256 const r = _mm256_div_ps(all_of(1.0F), c.v[3]);
@@ -60,10 +73,13 @@ GNOMON_AVX2_INLINE void snap_x8(Clip4x8 const& c, VertexJob const& job, __m256i 
     __m256 const py = _mm256_add_ps(_mm256_mul_ps(_mm256_mul_ps(c.v[1], r), half_y), half_y);
     __m256 z = _mm256_mul_ps(c.v[2], r);
     if (job.clip_depth) z = _mm256_min_ps(_mm256_max_ps(z, all_of(0.0F)), all_of(1.0F));
-    __m256i const x = _mm256_add_epi32(_mm256_cvtps_epi32(_mm256_mul_ps(px, all_of(256.0F))), all_of(job.offset_x));
-    __m256i const y = _mm256_add_epi32(_mm256_cvtps_epi32(_mm256_mul_ps(py, all_of(256.0F))), all_of(job.offset_y));
-    Four const corners = transposed_4x4(_mm256_and_si256(x, valid), _mm256_and_si256(y, valid),
-                                        _mm256_and_si256(as_int(z), valid), code);
+    Rounded8 const x = rounded_x8(px);
+    Rounded8 const y = rounded_x8(py);
+    __m256i const residues = _mm256_or_si256(_mm256_slli_epi32(y.residue, 20),
+                                             _mm256_slli_epi32(_mm256_and_si256(x.residue, all_of(0xFFF)), 8));
+    Four const corners = transposed_4x4(_mm256_and_si256(_mm256_add_epi32(x.value, all_of(job.offset_x)), valid),
+                                        _mm256_and_si256(_mm256_add_epi32(y.value, all_of(job.offset_y)), valid),
+                                        _mm256_and_si256(as_int(z), valid), select(code, residues, valid));
     __m256i* const to = reinterpret_cast<__m256i*>(out);
     _mm256_storeu_si256(to, _mm256_permute2x128_si256(corners.v[0], corners.v[1], 0x20));
     _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(corners.v[2], corners.v[3], 0x20));

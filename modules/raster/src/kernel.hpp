@@ -22,8 +22,10 @@ struct Corner {
     std::int32_t x;
     std::int32_t y;
     float z;
-    std::uint32_t code;  // 0: x, y, z are valid. See `outcode`.
+    std::uint32_t code;  // Bits 0-7: see `outcode`; 0 where the rest is valid. Above: 12 bits of residue each, x and y.
 };
+inline constexpr std::uint32_t outcode_bits = 0xFFU;
+inline constexpr int residue_scale = 4096;  // Residues count in 1/4096 of a fixed-point unit.
 
 /// A triangle on its way to the tiles, in one cache line.
 ///

@@ -31,8 +31,30 @@ enum : std::uint32_t {
 }
 
 /// a < b ? b : a and its twin, which are what the vector instructions do with equal zeros.
-[[nodiscard]] inline float at_least(float x, float low) noexcept { return x > low ? x : low; }
-[[nodiscard]] inline float at_most(float x, float high) noexcept { return x < high ? x : high; }
+template <class Real>
+[[nodiscard]] constexpr Real at_least(Real x, Real low) noexcept {
+    return x > low ? x : low;
+}
+template <class Real>
+[[nodiscard]] constexpr Real at_most(Real x, Real high) noexcept {
+    return x < high ? x : high;
+}
+
+/// What rounding took from a coordinate, in [-2048, 2047], and its place in `Corner::code`.
+[[nodiscard]] inline std::int32_t residue_of(float scaled, std::int32_t rounded) noexcept {
+    float const rest = (scaled - static_cast<float>(rounded)) * static_cast<float>(residue_scale);  // exact
+    std::int32_t const residue = round_even(static_cast<double>(rest));
+    return residue < 2047 ? residue : 2047;
+}
+[[nodiscard]] constexpr std::uint32_t packed_residues(std::int32_t x, std::int32_t y) noexcept {
+    return static_cast<std::uint32_t>(y) << 20U | (static_cast<std::uint32_t>(x) & 0xFFFU) << 8U;
+}
+[[nodiscard]] constexpr std::int32_t residue_x(Corner const& c) noexcept {
+    return static_cast<std::int32_t>(c.code << 12U) >> 20;
+}
+[[nodiscard]] constexpr std::int32_t residue_y(Corner const& c) noexcept {
+    return static_cast<std::int32_t>(c.code) >> 20;
+}
 
 struct Clip4 {
     float x, y, z, w;
@@ -75,8 +97,10 @@ template <class Viewport>
     float const y = (c.y * r) * half_height + half_height;
     float z = c.z * r;
     if (v.clip_depth) z = at_most(at_least(z, 0.0F), 1.0F);
-    return {round_even(static_cast<double>(x * 256.0F)) + v.offset_x,
-            round_even(static_cast<double>(y * 256.0F)) + v.offset_y, z, 0};
+    std::int32_t const snapped_x = round_even(static_cast<double>(x * 256.0F));
+    std::int32_t const snapped_y = round_even(static_cast<double>(y * 256.0F));
+    return {snapped_x + v.offset_x, snapped_y + v.offset_y, z,
+            packed_residues(residue_of(x * 256.0F, snapped_x), residue_of(y * 256.0F, snapped_y))};
 }
 
 /// First and last pixel whose centre lies in [low, high) of snapped coordinates; empty when first > last.
@@ -91,7 +115,7 @@ template <class Viewport>
     return dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
 }
 
-/// A triangle with positive area whose corner 0 has the least depth.
+/// A triangle with positive area whose corner 0 has the least depth, once the depths are moved.
 struct Oriented {
     std::int32_t x[3], y[3];
     float z[3];
@@ -103,20 +127,68 @@ struct Oriented {
            (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
 }
 
+/// From a to b before snapping, in residue units: exact.
+[[nodiscard]] inline double unsnapped(std::int32_t a, std::int32_t b, std::int32_t residue_a,
+                                      std::int32_t residue_b) noexcept {
+    return static_cast<double>(b - a) * residue_scale + static_cast<double>(residue_b - residue_a);
+}
+
+/// Moves the corners' depths along the plane through the corners before snapping, to where they were snapped to.
+///
+///     z_i' = z_i - gradient . residue_i, at most 1/8 of the depths' range beyond the range, and not across 0 or 1
+///
+/// A sliver that had less than half the area before snapping has no such plane worth following: its depths stay.
+/// expects: positive `area`, corner 0 the one with the least z, so that any order of the corners gives the same.
+inline void move_depths(Corner const* const (&v)[3], std::int64_t area, float (&z)[3]) noexcept {
+    double const z0 = static_cast<double>(v[0]->z);
+    double const z1 = static_cast<double>(v[1]->z);
+    double const z2 = static_cast<double>(v[2]->z);
+    double const x1 = unsnapped(v[0]->x, v[1]->x, residue_x(*v[0]), residue_x(*v[1]));
+    double const y1 = unsnapped(v[0]->y, v[1]->y, residue_y(*v[0]), residue_y(*v[1]));
+    double const x2 = unsnapped(v[0]->x, v[2]->x, residue_x(*v[0]), residue_x(*v[2]));
+    double const y2 = unsnapped(v[0]->y, v[2]->y, residue_y(*v[0]), residue_y(*v[2]));
+    double const true_area = x1 * y2 - x2 * y1;
+    double const half_snapped = static_cast<double>(area) * (0.5 * residue_scale * residue_scale);
+    double const scale = true_area >= half_snapped ? 1.0 / true_area : 0.0;
+    double const gx = ((z1 - z0) * y2 - (z2 - z0) * y1) * scale;
+    double const gy = ((z2 - z0) * x1 - (z1 - z0) * x2) * scale;
+    double const most = at_least(z1, z2);
+    double const slack = (most - z0) * 0.125;
+    double const low = at_least(z0 - slack, at_most(z0, 0.0));
+    double const high = at_most(most + slack, at_least(most, 1.0));
+    for (int i = 0; i < 3; ++i) {
+        double const shift = gx * static_cast<double>(residue_x(*v[i])) + gy * static_cast<double>(residue_y(*v[i]));
+        z[i] = static_cast<float>(at_most(at_least(static_cast<double>(v[i]->z) - shift, low), high));
+    }
+}
+
+/// The corner from which to count, so that the first has the least of three depths.
+[[nodiscard]] inline int least_of(float z0, float z1, float z2) noexcept {
+    int first = 0;
+    float least = z0;
+    if (z1 < least) {
+        first = 1;
+        least = z1;
+    }
+    return z2 < least ? 2 : first;
+}
+
 /// expects: `area` is theirs and not 0.
 [[nodiscard]] inline Oriented orient(Corner const& a, Corner const& b, Corner const& c, std::int64_t area) noexcept {
-    Corner const* v[3] = {&a, area > 0 ? &b : &c, area > 0 ? &c : &b};
-    int first = 0;
-    if (v[1]->z < v[first]->z) first = 1;
-    if (v[2]->z < v[first]->z) first = 2;
+    Corner const* const turned[3] = {&a, area > 0 ? &b : &c, area > 0 ? &c : &b};
+    int const nearest = least_of(turned[0]->z, turned[1]->z, turned[2]->z);
+    Corner const* const v[3] = {turned[nearest], turned[(nearest + 1) % 3], turned[(nearest + 2) % 3]};
     Oriented t{};
-    for (int i = 0; i < 3; ++i) {
-        Corner const& from = *v[(first + i) % 3];
-        t.x[i] = from.x;
-        t.y[i] = from.y;
-        t.z[i] = from.z;
-    }
     t.area = area > 0 ? area : -area;
+    float z[3];
+    move_depths(v, t.area, z);
+    int const first = least_of(z[0], z[1], z[2]);
+    for (int i = 0; i < 3; ++i) {
+        int const from = (first + i) % 3;
+        t.x[i] = v[from]->x;
+        t.y[i] = v[from]->y;
+        t.z[i] = z[from];
+    }
     return t;
 }
 

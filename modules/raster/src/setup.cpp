@@ -193,11 +193,11 @@ void setup_one(SetupJob const& job, std::size_t triangle, RecordSink& sink, Setu
     Corner const& a = job.corners[index[0] - job.first_corner];
     Corner const& b = job.corners[index[1] - job.first_corner];
     Corner const& c = job.corners[index[2] - job.first_corner];
-    std::uint32_t const any = a.code | b.code | c.code;
+    std::uint32_t const any = (a.code | b.code | c.code) & outcode_bits;
     std::uint32_t const id = job.id_base + static_cast<std::uint32_t>(triangle);
     if ((any & code_not_finite) != 0) {
         ++counts.not_finite;
-    } else if ((a.code & b.code & c.code) != 0) {
+    } else if ((a.code & b.code & c.code & outcode_bits) != 0) {
         ++counts.outside;
     } else if (any != 0) {
         ++counts.clipped;

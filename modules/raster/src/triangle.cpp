@@ -11,7 +11,7 @@ namespace {
 using detail::Clip4;
 using detail::Corner;
 
-Corner corner_of(SnappedVertex const& v) { return {v.x, v.y, v.z, 0}; }
+Corner corner_of(SnappedVertex const& v) { return {v.x, v.y, v.z, detail::packed_residues(v.residue_x, v.residue_y)}; }
 
 /// Signed distance of a corner from plane `plane` of the outcode, scaled; >= 0 inside.
 double distance(math::vec4 const& c, int plane, ViewportTransform const& v) {
@@ -104,7 +104,8 @@ ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners, ViewportTran
 SnappedVertex snap(math::vec4 const& clip, ViewportTransform const& viewport) noexcept {
     Corner const c = detail::snap_of(Clip4{clip.x, clip.y, clip.z, clip.w}, viewport, viewport.half_width_px,
                                      viewport.half_height_px);
-    return {c.x, c.y, c.z};
+    return {c.x, c.y, c.z, static_cast<std::int16_t>(detail::residue_x(c)),
+            static_cast<std::int16_t>(detail::residue_y(c))};
 }
 
 bool covers(SnappedTriangle const& triangle, std::int32_t x, std::int32_t y) noexcept {

@@ -5,6 +5,7 @@
 #include "oracle.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace {
@@ -64,10 +65,22 @@ SnappedTriangle random_triangle(Random& random) {
     }
 }
 
+/// The same with corners that snapping moved, two times of three.
+SnappedTriangle random_snapped_triangle(Random& random) {
+    SnappedTriangle t = random_triangle(random);
+    if (random.in(0, 2) == 0) return t;
+    for (SnappedVertex& v : t) {
+        v.residue_x = oracle::residue(random, v.x, size_units / 2);
+        v.residue_y = oracle::residue(random, v.y, size_units / 2);
+    }
+    return t;
+}
+
 /// The clip coordinates that snap to the corner exactly: a power-of-two target makes every step exact.
 math::vec3 clip_of(SnappedVertex const& v) {
-    float const half = static_cast<float>(size_units) * 0.5F;
-    return math::vec3((static_cast<float>(v.x) - half) / half, (static_cast<float>(v.y) - half) / half, v.z);
+    double const half = static_cast<double>(size_units) * 0.5;
+    return math::vec3(static_cast<float>((v.x + v.residue_x / 4096.0 - half) / half),
+                      static_cast<float>((v.y + v.residue_y / 4096.0 - half) / half), v.z);
 }
 
 struct Canvas {
@@ -93,18 +106,23 @@ int differences(Canvas& canvas, SnappedTriangle const& t, Kernel kernel) {
         for (SnappedVertex const& v : t) positions.push_back(clip_of(v));
     canvas.draw(positions, math::mat4(1.0F), math::Depth::forward, kernel);
     int wrong = 0;
-    double const least_z = static_cast<double>(std::min({t[0].z, t[1].z, t[2].z}));
+    std::array<oracle::Quad, 3> const moved = oracle::moved_depths(t);
+    double const least_z = static_cast<double>(std::min({moved[0], moved[1], moved[2]}));
+    double const corner_error = oracle::moved_error(t);
     for (std::int32_t y = 0; y < size; ++y)
         for (std::int32_t x = 0; x < size; ++x) {
             std::size_t const at = static_cast<std::size_t>(y * size + x);
             bool const covered = oracle::signed_cover(t, x, y) != 0;
-            bool ok = covered == (canvas.id[at] == 0) && covered == covers(t, x, y);
+            // A depth of 1 is no nearer than what a forward pass clears to.
+            bool const drawn = covered && depth_at(t, x, y) < 1.0F;
+            bool ok = drawn == (canvas.id[at] == 0) && covered == covers(t, x, y);
             if (covered && ok) {
                 oracle::Quad const exact = oracle::depth(t, x, y);
                 oracle::Quad const error = static_cast<oracle::Quad>(canvas.depth[at]) - exact;
                 double const bound = 0x1p-24 * 1.000001 *
                                      (4.0 * (static_cast<double>(exact) - least_z) + 2.0 * static_cast<double>(exact));
-                ok = (error < 0 ? -error : error) <= static_cast<oracle::Quad>(bound + 0x1p-140);
+                ok = (error < 0 ? -error : error) <=
+                     static_cast<oracle::Quad>(bound + 1.000001 * corner_error + 0x1p-140);
                 ok = ok && canvas.depth[at] == std::clamp(depth_at(t, x, y), 0.0F, 1.0F);
             }
             wrong += ok || (!covered && canvas.id[at] == no_triangle && canvas.depth[at] == 1.0F) ? 0 : 1;
@@ -117,7 +135,7 @@ void compare(std::uint64_t count, std::uint64_t seed) {
     Canvas canvas;
     std::uint64_t wrong = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
-        SnappedTriangle const t = random_triangle(random);
+        SnappedTriangle const t = random_snapped_triangle(random);
         int const bad = differences(canvas, t, (i & 1U) != 0 ? Kernel::scalar : Kernel::simd);
         if (bad != 0 && wrong == 0) {
             CAPTURE(i, t[0].x, t[0].y, t[1].x, t[1].y, t[2].x, t[2].y, bad);
@@ -194,7 +212,7 @@ TEST_CASE("a million triangles equal the exact oracle", "[.][full]") {
 TEST_CASE("a triangle may be given in any order of its corners", "[raster][depth]") {
     Random random{5};
     for (int i = 0; i < 2'000; ++i) {
-        SnappedTriangle const t = random_triangle(random);
+        SnappedTriangle const t = random_snapped_triangle(random);
         if (doubled_area(t) == 0) continue;
         SnappedTriangle const turned{t[1], t[2], t[0]};
         SnappedTriangle const mirrored{t[2], t[1], t[0]};
@@ -213,6 +231,56 @@ TEST_CASE("a flat triangle has its depth at every sample", "[raster][depth]") {
             if (covers(t, x, y)) CHECK(depth_at(t, x, y) == 0.3F);
 }
 
+TEST_CASE("depth is that of the plane through the corners before snapping", "[raster][depth]") {
+    using oracle::Quad;
+    Random random{7};
+    constexpr double side = 1024.0;
+    ViewportTransform const viewport = make_viewport({0, 0, 1024, 1024}, true);
+    int samples = 0;
+    int wrong = 0;
+    int wrong_as_snapped = 0;  // The plane through the snapped corners would not do.
+    for (int i = 0; i < 3'000; ++i) {
+        float const reach = random.in(0, 1) == 0 ? 0.004F : 0.05F;
+        math::vec3 const at{random.unit() * 2.0F - 1.0F, random.unit() * 2.0F - 1.0F, random.unit()};
+        SnappedTriangle snapped;
+        double x[3];
+        double y[3];
+        double z[3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            float const w = 0.5F + random.unit();
+            math::vec4 const clip{(at.x + reach * (random.unit() - 0.5F)) * w,
+                                  (at.y + reach * (random.unit() - 0.5F)) * w, (0.9F * at.z + 0.1F * random.unit()) * w,
+                                  w};
+            snapped[c] = snap(clip, viewport);
+            auto const divided = [&](float v) { return static_cast<double>(v) / static_cast<double>(w); };
+            x[c] = (divided(clip.x) + 1.0) * (side / 2.0);
+            y[c] = (divided(clip.y) + 1.0) * (side / 2.0);
+            z[c] = divided(clip.z);
+        }
+        double const area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+        double const gx = ((z[1] - z[0]) * (y[2] - y[0]) - (z[2] - z[0]) * (y[1] - y[0])) / area;
+        double const gy = ((z[2] - z[0]) * (x[1] - x[0]) - (z[1] - z[0]) * (x[2] - x[0])) / area;
+        double const longest = std::max({std::hypot(x[1] - x[0], y[1] - y[0]), std::hypot(x[2] - x[1], y[2] - y[1]),
+                                         std::hypot(x[0] - x[2], y[0] - y[2])});
+        if (std::abs(area) < 0.125 * longest) continue;
+        SnappedTriangle rounded = snapped;
+        for (SnappedVertex& v : rounded) v.residue_x = v.residue_y = 0;
+        // In pixels: rounding of the residue (2^-20), of three products and a sum in float (4 * 1024 * 2^-24).
+        double const bound = (std::abs(gx) + std::abs(gy)) * 1.01 * (0x1p-20 + 0x1p-12) + 8 * 0x1p-24;
+        for (std::int32_t py = snapped[0].y / 256 - 2; py <= snapped[0].y / 256 + 2; ++py)
+            for (std::int32_t px = snapped[0].x / 256 - 2; px <= snapped[0].x / 256 + 2; ++px) {
+                if (!covers(snapped, px, py)) continue;
+                double const exact = z[0] + gx * (px + 0.5 - x[0]) + gy * (py + 0.5 - y[0]);
+                ++samples;
+                wrong += std::abs(static_cast<double>(depth_at(snapped, px, py)) - exact) <= bound ? 0 : 1;
+                wrong_as_snapped += std::abs(static_cast<double>(depth_at(rounded, px, py)) - exact) <= bound ? 0 : 1;
+            }
+    }
+    CHECK(samples > 5'000);
+    CHECK(wrong == 0);
+    CHECK(wrong_as_snapped > samples / 4);
+}
+
 TEST_CASE("snapping rounds to the nearest 1/256 pixel, ties to even", "[raster][snap]") {
     ViewportTransform const viewport = make_viewport({0, 0, 512, 512}, true);
     // 1/512 px is half a unit: x_ndc of 2^-17 is half a unit right of the centre.
@@ -220,13 +288,18 @@ TEST_CASE("snapping rounds to the nearest 1/256 pixel, ties to even", "[raster][
     CHECK(snap(math::vec4(3 * 0x1p-17F, 0.0F, 0.5F, 1.0F), viewport).x == 256 * 256 + 2);
     CHECK(snap(math::vec4(-1.0F, 1.0F, 0.5F, 1.0F), viewport) == SnappedVertex{0, 512 * 256, 0.5F});
     CHECK(snap(math::vec4(2.0F, 2.0F, 1.0F, 4.0F), viewport) == SnappedVertex{384 * 256, 384 * 256, 0.25F});
+    // What rounding took, in 1/4096 of a unit; half a unit up is one too many for 12 bits.
+    CHECK(snap(math::vec4(5 * 0x1p-18F, -0x1p-18F, 0.5F, 1.0F), viewport) ==
+          SnappedVertex{256 * 256 + 1, 256 * 256, 0.5F, 1024, -1024});
+    CHECK(snap(math::vec4(0x1p-17F, -0x1p-17F, 0.5F, 1.0F), viewport) ==
+          SnappedVertex{256 * 256, 256 * 256, 0.5F, 2047, -2048});
 }
 
 TEST_CASE("a viewport's place moves snapped corners by whole pixels", "[raster][snap]") {
     math::vec4 const corner(0.3712F, -0.611F, 0.4F, 1.37F);
     SnappedVertex const home = snap(corner, make_viewport({0, 0, 333, 217}, true));
     SnappedVertex const away = snap(corner, make_viewport({-77, 9001, 333, 217}, true));
-    CHECK(away == SnappedVertex{home.x - 77 * 256, home.y + 9001 * 256, home.z});
+    CHECK(away == SnappedVertex{home.x - 77 * 256, home.y + 9001 * 256, home.z, home.residue_x, home.residue_y});
 }
 
 TEST_CASE("an edge is cut at the same corner whichever triangle owns it", "[raster][clip]") {

@@ -50,11 +50,14 @@ struct ClipPolygon {
 [[nodiscard]] ClipPolygon clip_triangle(std::array<math::vec4, 3> const& corners,
                                         ViewportTransform const& viewport) noexcept;
 
-/// A corner in the image: fixed point, and z / w.
+/// A corner in the image: fixed point, z / w, and what rounding took, for the depth: before it the corner was at
+/// x + residue_x / 4096.
 struct SnappedVertex {
     std::int32_t x;
     std::int32_t y;
     float z;
+    std::int16_t residue_x = 0;  ///< In [-2048, 2047].
+    std::int16_t residue_y = 0;
 
     friend bool operator==(SnappedVertex const&, SnappedVertex const&) noexcept = default;
 };
@@ -84,15 +87,25 @@ using SnappedTriangle = std::array<SnappedVertex, 3>;
 
 /// Depth of the triangle at the centre of pixel (x, y), as every kernel computes it. Not clamped to [0, 1].
 ///
-///     z = z0 + E1 g1 + E2 g2,  g_i = (z_i - z0) / doubled area,  corner 0 the one with the least z
+/// It is that of the plane through the corners before snapping, as on GPUs. First each corner's depth is moved along
+/// that plane to where the corner was snapped to, in double, and rounded to float:
+///
+///     z_i' = z_i - gradient . residue_i, at most 1/8 of the depths' range beyond the range, and not across 0 or 1
+///
+/// The limit takes hold of slivers only: of those thinner, along the gradient, than 1/45 pixel. Where snapping more
+/// than doubled a sliver's area, z_i' = z_i. So a sample's depth is never far outside the triangle's own.
+///
+///     z = z0 + E1 g1 + E2 g2,  g_i = (z_i' - z0) / doubled area,  corner 0 the one with the least z', which is z0
 ///
 /// E are the exact integer edge functions, all terms but z0 are >= 0 inside: nothing cancels. With e = 2^-24 each of
-/// E, g, E g, the sum of the two, z0 with the fractions of E, and the last sum is rounded once to float; so
+/// E, g, E g, the sum of the two, z0 with the fractions of E, and the last sum is rounded once to float; so against the
+/// plane through the z_i'
 ///
 ///     |z - exact| <= 4e (exact - z0) + 2e max(|z0|, |exact|)  (1 + 2^-20)  + 2^-140
 ///
-/// which is at most 5e exact where no corner's z is negative, whatever the triangle's shape. A triangle of more than
-/// 1024 pixels on a side is evaluated in double and rounded once: e |exact|.
+/// which is at most 5e exact where no corner's z is negative, whatever the triangle's shape; the rounding of z_i' adds
+/// e max |z_i'| + 2^-26 of the range. A triangle of more than 1024 pixels on a side is evaluated in double and rounded
+/// once: e |exact|.
 /// expects: an area that is not 0, and `covers(triangle, x, y)`.
 [[nodiscard]] float depth_at(SnappedTriangle const& triangle, std::int32_t x, std::int32_t y) noexcept;
 
