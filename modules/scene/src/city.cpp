@@ -3,6 +3,7 @@
 #include "detail/generators.hpp"
 #include "detail/grid_mesh.hpp"
 #include "detail/pcg32.hpp"
+#include "detail/turn.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,20 +141,52 @@ math::ivec2 spiral(int i) noexcept {
     }
 }
 
+constexpr double city_near_m = 0.5;
+constexpr double city_far_m = 2000.0;
+
 void add_city_views(Scene& scene) {
-    double const near_m = 0.5;
-    double const far_m = 2000.0;
     scene.cameras.push_back(looking_at("air", {-222.2, 120.0, 420.0}, {-165.0, 0.0, 235.0}, sixty_degrees_rad));
     scene.cameras.push_back(
         looking_at("street", {-222.2, 1.7, -414.3}, dvec3(-222.2, 1.7, -414.3) + dvec3(0.35, 0.06, 1.0), sixty_degrees_rad));
     scene.cameras.push_back(looking_at("far", {-560.0, 420.0, 760.0}, {0.0, 0.0, 40.0}, sixty_degrees_rad * 0.75));
     for (Camera& camera : scene.cameras) {
-        camera.near_m = near_m;
-        camera.far_m = far_m;
+        camera.near_m = city_near_m;
+        camera.far_m = city_far_m;
     }
 }
 
+/// Along the middle of the street between two columns of buildings; none reaches within 3.8 m of it.
+Camera street_frame(double time_s, double share) {
+    dvec3 const eye(10.0 * (city_side_m / city_columns) - city_side_m * 0.5, 1.7, -414.3 + 10.0 * time_s);
+    double const yaw = 30.0 * turns_per_degree * sin_cos(2.0 * share).sin;
+    dvec3 const ahead = level_direction(-0.25 + yaw);
+    return looking_at("", eye, eye + ahead + dvec3(0.0, 0.03, 0.0), sixty_degrees_rad);
+}
+
+/// From the view `air` on over the roofs, in a slow bend.
+Camera air_frame(double share) {
+    double const turn = 45.0 * turns_per_degree;
+    double const heading = 0.204 - turn * share;
+    // The chord of the bend so far: an arc of 300 m.
+    double const radius_m = 300.0 / (turn * 2.0 * pi);
+    dvec3 const centre = dvec3(-222.2, 120.0, 420.0) + level_direction(0.204 - 0.25) * radius_m;
+    dvec3 const eye = centre - level_direction(heading - 0.25) * radius_m;
+    return looking_at("", eye, eye + level_direction(heading) - dvec3(0.0, 0.62, 0.0), sixty_degrees_rad);
+}
+
 }  // namespace
+
+Result<CameraPath> make_city_path(ProceduralConfig const& config, PathInfo const& info) {
+    (void)config;  // no seed puts a building into a street or above 78 m
+    CameraPath path{std::string(info.name), info.rate_hz, {}};
+    for (std::uint32_t i = 0; i < info.frames; ++i) {
+        double const share = static_cast<double>(i) / info.frames;
+        Camera& camera = path.frames.emplace_back(info.name == "street" ? street_frame(i / info.rate_hz, share) : air_frame(share));
+        camera.near_m = info.name == "street" ? 0.2 : city_near_m;
+        camera.far_m = city_far_m;
+    }
+    return path;
+}
 
 Result<Scene> make_city(ProceduralConfig const& config) {
     constexpr std::uint64_t boxes = city_columns * city_rows;

@@ -4,36 +4,111 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <optional>
 
 namespace gnomon::scene {
 
 namespace {
 
 using core::Failure;
+using detail::Generator;
 
-constexpr std::array<ProceduralInfo, 4> infos{{
-    {"city", "1260 buildings on a square kilometre, 8-78 m high; --triangles 52000, 254000, 1010000; --blocks up to 10M",
-     254'000, true, true, false},
-    {"cubes", "999 turned cubes floating over a slab under one lamp: many overlapping shadow edges; views A, B, C", 12'000,
-     false, false, false},
-    {"rayyard", "1024 boxes, 1-60 m high, under one high lamp, for exact shadow rays; --triangles 59000, 274000, 1040000",
-     274'000, true, false, false},
-    {"sheet", "a watertight sheet of 256x256 points with exact heights under one lamp; --offset 0, 8192, 131072", 130'050,
-     false, false, true},
-}};
+/// In alphabetical order.
+constexpr std::array generators{
+    Generator{{.name = "city",
+               .description = "1260 buildings on a square kilometre, 8-78 m high; --triangles 52000, 254000, 1010000; "
+                              "--blocks up to 10M",
+               .default_triangles = 254'000,
+               .takes_triangles = true,
+               .takes_blocks = true,
+               .paths = detail::city_paths},
+              detail::make_city,
+              detail::make_city_path},
+    Generator{{.name = "cubes",
+               .description = "999 turned cubes floating over a slab under one lamp: many overlapping shadow edges; views "
+                              "A, B, C",
+               .default_triangles = 12'000},
+              detail::make_cubes},
+    Generator{{.name = "rayyard",
+               .description = "1024 boxes, 1-60 m high, under one high lamp, for exact shadow rays; --triangles 59000, "
+                              "274000, 1040000",
+               .default_triangles = 274'000,
+               .takes_triangles = true},
+              detail::make_rayyard},
+    Generator{{.name = "sheet",
+               .description = "a watertight sheet of 256x256 points with exact heights under one lamp; --offset 0, 8192, "
+                              "131072",
+               .default_triangles = 130'050,
+               .takes_offset = true},
+              detail::make_sheet},
+};
 
-std::string known_names() {
+constexpr std::array<ProceduralInfo, generators.size()> infos = [] {
+    std::array<ProceduralInfo, generators.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = generators[i].info;
+    return all;
+}();
+
+template <class Named>
+std::string names_of(Named const& things) {
     std::string names;
-    for (ProceduralInfo const& info : infos) names += (names.empty() ? "" : ", ") + std::string(info.name);
+    for (auto const& thing : things) names += (names.empty() ? "" : ", ") + std::string(thing.name);
     return names;
 }
 
 Failure<SceneError> bad(std::string message) { return {SceneError::bad_config, std::move(message)}; }
 
-ProceduralInfo const* find(std::string_view name) noexcept {
+Generator const* find(std::string_view name) noexcept {
     auto const* const found =
-        std::find_if(infos.begin(), infos.end(), [&](ProceduralInfo const& info) { return info.name == name; });
-    return found == infos.end() ? nullptr : found;
+        std::find_if(generators.begin(), generators.end(), [&](Generator const& g) { return g.info.name == name; });
+    return found == generators.end() ? nullptr : found;
+}
+
+Failure<SceneError> unknown(std::string const& name) {
+    return bad("there is no built-in scene '" + name + "'; the built-in ones are " + names_of(infos));
+}
+
+/// A positive whole number and nothing else.
+std::optional<std::uint32_t> count_from(std::string const& text) {
+    std::uint32_t count = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    bool const whole = error == std::errc() && end == text.data() + text.size() && count > 0;
+    return whole ? std::optional(count) : std::nullopt;
+}
+
+/// The name of the set that `lights` means, or a number of lights.
+Result<std::string> choose_lights(ProceduralInfo const& info, std::string const& lights) {
+    std::string const scene(info.name);
+    if (lights.empty()) return info.light_sets.empty() ? std::string() : std::string(info.light_sets.front().name);
+    if (info.light_sets.empty())
+        return bad(scene + " has only the lights it has; leave out the lights '" + lights + "'");
+    for (LightSetInfo const& set : info.light_sets)
+        if (set.name == lights || std::to_string(set.lights) == lights) return std::string(set.name);
+    auto const count = count_from(lights);
+    if (count && *count <= info.max_lights) return std::to_string(*count);
+    std::string const range = info.max_lights == 0 ? "" : " or a number from 1 to " + std::to_string(info.max_lights);
+    return bad(scene + " has no lights '" + lights + "'; give " + names_of(info.light_sets) + range);
+}
+
+/// The configuration with its defaults filled in, or what is wrong with it.
+Result<ProceduralConfig> complete(ProceduralConfig const& config, ProceduralInfo const& info) {
+    if (config.triangles != 0 && !info.takes_triangles && config.triangles != info.default_triangles)
+        return bad(config.name + " always has " + std::to_string(info.default_triangles) +
+                   " triangles; leave out the budget of " + std::to_string(config.triangles));
+    if (config.blocks != 1 && !info.takes_blocks)
+        return bad(config.name + " comes in one block; leave out the " + std::to_string(config.blocks) + " blocks");
+    if (!(config.offset_m == 0.0) && !info.takes_offset)
+        return bad(config.name + " stands at the origin; leave out the offset of " + std::to_string(config.offset_m) + " m");
+    if (!(config.moving_percent >= 0.0 && config.moving_percent <= info.max_moving_percent))
+        return bad("in " + config.name + ' ' + std::to_string(config.moving_percent) + " % cannot move; give " +
+                   (info.max_moving_percent > 0.0 ? "0 to " + std::to_string(info.max_moving_percent) : "0"));
+    auto lights = choose_lights(info, config.lights);
+    if (!lights) return std::move(lights).failure();
+    ProceduralConfig full = config;
+    full.lights = *std::move(lights);
+    if (full.triangles == 0) full.triangles = info.default_triangles;
+    return full;
 }
 
 }  // namespace
@@ -43,22 +118,27 @@ std::span<ProceduralInfo const> procedural_scenes() noexcept { return infos; }
 bool is_procedural(std::string_view name) noexcept { return find(name) != nullptr; }
 
 Result<Scene> make_procedural(ProceduralConfig const& config) {
-    ProceduralInfo const* const info = find(config.name);
-    if (info == nullptr)
-        return bad("there is no built-in scene '" + config.name + "'; the built-in ones are " + known_names());
-    if (config.triangles != 0 && !info->takes_triangles && config.triangles != info->default_triangles)
-        return bad(config.name + " always has " + std::to_string(info->default_triangles) +
-                   " triangles; leave out the budget of " + std::to_string(config.triangles));
-    if (config.blocks != 1 && !info->takes_blocks)
-        return bad(config.name + " comes in one block; leave out the " + std::to_string(config.blocks) + " blocks");
-    if (!(config.offset_m == 0.0) && !info->takes_offset)
-        return bad(config.name + " stands at the origin; leave out the offset of " + std::to_string(config.offset_m) + " m");
-    ProceduralConfig full = config;
-    if (full.triangles == 0) full.triangles = info->default_triangles;
-    if (config.name == "city") return detail::make_city(full);
-    if (config.name == "cubes") return detail::make_cubes(full);
-    if (config.name == "rayyard") return detail::make_rayyard(full);
-    return detail::make_sheet(full);
+    Generator const* const generator = find(config.name);
+    if (generator == nullptr) return unknown(config.name);
+    auto const full = complete(config, generator->info);
+    if (!full) return full.failure();
+    return generator->make(*full);
+}
+
+std::span<PathInfo const> procedural_paths(std::string_view scene) noexcept {
+    Generator const* const generator = find(scene);
+    return generator == nullptr ? std::span<PathInfo const>() : generator->info.paths;
+}
+
+Result<CameraPath> make_path(ProceduralConfig const& config, std::string_view path) {
+    Generator const* const generator = find(config.name);
+    if (generator == nullptr) return unknown(config.name);
+    auto const full = complete(config, generator->info);
+    if (!full) return full.failure();
+    for (PathInfo const& info : generator->info.paths)
+        if (info.name == path) return generator->path(*full, info);
+    std::string const known = generator->info.paths.empty() ? "; it has none" : "; it has " + names_of(generator->info.paths);
+    return bad(config.name + " has no path '" + std::string(path) + '\'' + known);
 }
 
 }  // namespace gnomon::scene

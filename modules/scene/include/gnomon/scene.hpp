@@ -3,6 +3,7 @@
 
 #include <gnomon/scene/flatten.hpp>
 #include <gnomon/scene/load.hpp>
+#include <gnomon/scene/path.hpp>
 #include <gnomon/scene/procedural.hpp>
 #include <gnomon/scene/scene.hpp>
 #include <gnomon/scene/suggest.hpp>

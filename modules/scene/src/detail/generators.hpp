@@ -1,15 +1,31 @@
 #pragma once
 // The generators behind `make_procedural`, and what they share.
 
-#include <gnomon/scene/procedural.hpp>
+#include <gnomon/scene/path.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 namespace gnomon::scene::detail {
 
-/// expects: the name fits, the budget is not 0, options that the scene does not take are at their defaults.
+/// A procedural scene: what it is, and who makes it and its paths. procedural.cpp has the table.
+struct Generator {
+    ProceduralInfo info;
+    Result<Scene> (*make)(ProceduralConfig const& config);
+    Result<CameraPath> (*path)(ProceduralConfig const& config, PathInfo const& path) = nullptr;
+};
+
+inline constexpr double path_rate_hz = 30.0;
+inline constexpr std::array<PathInfo, 2> city_paths{{
+    {"street", "at 10 m/s along a street, looking left and right", 300, path_rate_hz},
+    {"air", "at 30 m/s over the roofs, 120 m up", 300, path_rate_hz},
+}};
+
+/// expects: the name fits, the budget is not 0, `lights` is empty only where there are no sets to choose from, options
+///          that the scene does not take are at their defaults.
 Result<Scene> make_city(ProceduralConfig const& config);
+Result<CameraPath> make_city_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_cubes(ProceduralConfig const& config);
 Result<Scene> make_rayyard(ProceduralConfig const& config);
 Result<Scene> make_sheet(ProceduralConfig const& config);
