@@ -2,89 +2,23 @@
 #include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster.hpp>
 
+#include "allocations.hpp"
+#include "mixed.hpp"
 #include "oracle.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
-#include <new>
 #include <vector>
-
-namespace {
-
-std::atomic<std::uint64_t>& allocations() {
-    static std::atomic<std::uint64_t> count{0};
-    return count;
-}
-
-}  // namespace
-
-// Counts what passes allocate; the workspace asks for aligned memory.
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    ++allocations();
-    auto const step = static_cast<std::size_t>(alignment);
-    void* const p = std::aligned_alloc(step, (size + step - 1) / step * step);
-    if (p == nullptr) throw std::bad_alloc();
-    return p;
-}
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace {
 
 using namespace gnomon;
 using namespace gnomon::raster;
+using namespace fixture;
 using oracle::Random;
-using Positions = std::vector<math::vec3>;
-using Indices = std::vector<std::uint32_t>;
-
-struct Canvas {
-    std::int32_t width, height;
-    std::vector<float> depth;
-    std::vector<std::uint32_t> id;
-    Workspace workspace;
-    PassStats stats;
-
-    Canvas(std::int32_t w, std::int32_t h)
-        : width(w),
-          height(h),
-          depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), -7.0F),
-          id(depth.size(), 7U) {}
-
-    VisibilityTarget target() {
-        return {make_image(depth.data(), width, height), make_image(id.data(), width, height)};
-    }
-
-    Canvas& draw(std::vector<Draw> const& draws, PassConfig const& config, core::ExecutorRef executor) {
-        stats = camera_pass(draws, target(), config, workspace, executor);
-        return *this;
-    }
-    Canvas& draw(std::vector<Draw> const& draws, PassConfig const& config = {}) {
-        core::SerialExecutor serial;
-        return draw(draws, config, serial);
-    }
-    [[nodiscard]] std::uint64_t hash() const { return oracle::hash(depth) * 31 + oracle::hash(id); }
-};
-
-Draw draw_of(Positions const& positions, Indices const& indices, math::mat4 const& matrix = math::mat4(1.0F)) {
-    return {.positions = std::span<math::vec3 const>(positions),
-            .indices = std::span<std::uint32_t const>(indices),
-            .clip_from_relative = matrix};
-}
-
-/// w = -z, near plane at 1/8 m, reversed depth, infinite far plane.
-math::mat4 camera() {
-    math::mat4 m(0.0F);
-    m[0][0] = 1.0F;
-    m[1][1] = -1.0F;
-    m[3][2] = 0.125F;
-    m[2][3] = -1.0F;
-    return m;
-}
 
 struct Mesh {
     Positions positions;
@@ -130,35 +64,6 @@ std::vector<int> hits(Canvas& canvas, Mesh const& mesh, math::mat4 const& matrix
     }
     return count;
 }
-
-/// A scene that takes every path: small, large, clipped, degenerate, equal depths, two draws.
-struct Mixed {
-    Positions positions;
-    Indices indices;
-
-    explicit Mixed(std::uint64_t seed, int count) {
-        // Braces, not parentheses: the order of evaluation is part of the scene.
-        Random random{seed};
-        for (int i = 0; i < count; ++i) {
-            float const reach = i % 50 == 0 ? 40.0F : i % 7 == 0 ? 1.0F : 0.05F;
-            math::vec3 const at{random.unit() * 6.0F - 3.0F, random.unit() * 6.0F - 3.0F, -random.unit() * 4.0F};
-            auto const start = static_cast<std::uint32_t>(positions.size());
-            for (int c = 0; c < 3; ++c)
-                positions.push_back(at + math::vec3{random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F} *
-                                             reach);
-            for (std::uint32_t c = 0; c < 3; ++c) indices.push_back(start + c);
-            if (i % 9 == 0) indices.insert(indices.end(), {start, start + 2, start + 1});  // the same depths again
-        }
-    }
-    [[nodiscard]] std::vector<Draw> draws() const {
-        Draw const first = draw_of(positions, indices, camera());
-        Draw second = first;
-        second.origin = math::vec3(0.25F, -0.5F, 0.75F);
-        second.first_triangle = static_cast<std::uint32_t>(triangle_count(first));
-        second.cull = Cull::back;
-        return {first, second};
-    }
-};
 
 }  // namespace
 
@@ -571,9 +476,9 @@ TEST_CASE("a second pass of the same size allocates nothing", "[raster][memory]"
     Canvas canvas(256, 256);
     canvas.draw(draws);
     std::size_t const bytes = canvas.workspace.size_bytes();
-    std::uint64_t const before = allocations();
+    std::uint64_t const before = allocations_made();
     core::SerialExecutor serial;
     camera_pass(draws, canvas.target(), {}, canvas.workspace, serial);
-    CHECK(allocations() == before);
+    CHECK(allocations_made() == before);
     CHECK(canvas.workspace.size_bytes() == bytes);
 }

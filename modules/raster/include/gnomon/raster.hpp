@@ -2,6 +2,8 @@
 // The CPU rasterizer: exact coverage, a depth with a stated bound, the same image from any number of threads.
 
 #include <gnomon/raster/draw.hpp>
+#include <gnomon/raster/instances.hpp>
+#include <gnomon/raster/layers.hpp>
 #include <gnomon/raster/pass.hpp>
 #include <gnomon/raster/target.hpp>
 #include <gnomon/raster/triangle.hpp>

@@ -4,6 +4,7 @@
 #include <gnomon/core/strided_span.hpp>
 #include <gnomon/math/texel.hpp>
 #include <gnomon/math/vec.hpp>
+#include <gnomon/raster/instances.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -60,6 +61,10 @@ struct Draw {
     std::uint32_t first_triangle = 0;  ///< Id of the draw's first triangle in a visibility target.
     Cull cull = Cull::none;
     AlphaTest const* alpha_test = nullptr;  ///< Null draws solid triangles. Must outlive the pass.
+    /// Copies: corners become `clip_from_instance(..) * (position, 1)`. Ids go on from instance to instance by
+    /// `triangle_count(draw)`.
+    InstanceSpan instances{};
+    std::uint64_t groups = ~std::uint64_t{0};  ///< In a layered pass: drawn into the layers that share a bit.
 };
 
 /// What is wrong with a draw's data. A pass leaves such triangles out and counts them; nothing here is fatal.
@@ -74,7 +79,7 @@ struct DrawFaults {
     }
 };
 
-/// Number of whole triangles of the draw.
+/// Number of whole triangles of the draw, or of each of its instances.
 [[nodiscard]] inline std::size_t triangle_count(Draw const& draw) noexcept {
     return (draw.indices.empty() ? draw.positions.size() : draw.indices.size()) / 3;
 }
