@@ -1,5 +1,9 @@
-#include <gnomon/math/scalar.hpp>
 #include <gnomon/scene/flatten.hpp>
+
+#include "detail/posed_part.hpp"
+
+#include <gnomon/core/contract.hpp>
+#include <gnomon/math/scalar.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,44 +15,12 @@ namespace gnomon::scene {
 
 namespace {
 
-using math::dmat3;
+using detail::PosedPart;
 using math::dmat4;
 using math::dvec2;
 using math::dvec3;
 using math::vec2;
 using math::vec3;
-
-/// Where a vertex stands in the world: M p, in double, in a fixed order of operations.
-dvec3 to_world(dmat4 const& m, vec3 const& position) noexcept {
-    dvec3 const p = math::to_double(position);
-    dvec3 w;
-    for (int row = 0; row < 3; ++row) w[row] = ((m[0][row] * p.x + m[1][row] * p.y) + m[2][row] * p.z) + m[3][row];
-    return w;
-}
-
-double determinant(dmat4 const& m) noexcept {
-    return m[0][0] * (m[1][1] * m[2][2] - m[2][1] * m[1][2]) - m[1][0] * (m[0][1] * m[2][2] - m[2][1] * m[0][2]) +
-           m[2][0] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
-}
-
-/// Turns normals as the matrix turns planes: its cofactors, whose sign a mirroring matrix changes, so that is undone.
-dmat3 normal_matrix(dmat4 const& m, bool mirrors) noexcept {
-    auto const column = [&](int i) { return dvec3(m[i][0], m[i][1], m[i][2]); };
-    double const sign = mirrors ? -1.0 : 1.0;
-    dmat3 n(0.0);
-    n[0] = glm::cross(column(1), column(2)) * sign;
-    n[1] = glm::cross(column(2), column(0)) * sign;
-    n[2] = glm::cross(column(0), column(1)) * sign;
-    return n;
-}
-
-/// `v` with length 1; where it has none to scale, `fallback`.
-vec3 unit_or(dvec3 v, vec3 const& fallback) noexcept {
-    double const largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0.0) || !math::is_finite(largest)) return fallback;
-    v = v / largest;
-    return math::to_float(v / std::sqrt((v.x * v.x + v.y * v.y) + v.z * v.z));
-}
 
 /// uv' = offset + R(rotation) (scale * uv), with the sense of rotation of KHR_texture_transform.
 struct UvTransform {
@@ -96,9 +68,36 @@ std::vector<Part> ordered_parts(Scene const& scene) {
     return parts;
 }
 
-/// The scene's centre, rounded to whole steps: of each primitive's box, its eight corners in the world.
-dvec3 choose_origin(Scene const& scene) {
-    constexpr double inf = std::numeric_limits<double>::infinity();
+/// The smallest box of the world that holds the eight corners of boxes wherever matrices take them.
+class WorldBox {
+public:
+    void add(dmat4 const& m, math::Aabb const& box) noexcept {
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            dvec3 const w = detail::to_world(m, math::to_double(math::corner(box, corner)));
+            if (!math::is_finite(w)) continue;
+            lo_ = glm::min(lo_, w);
+            hi_ = glm::max(hi_, w);
+        }
+    }
+
+    /// The centre in whole steps; 0 along an axis that has none.
+    [[nodiscard]] dvec3 rounded_centre() const noexcept {
+        dvec3 origin(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            double const steps = std::round((lo_[axis] * 0.5 + hi_[axis] * 0.5) / origin_step_m);
+            // Beyond 2^52 steps a step is less than an ulp; the scene has no detail to save there.
+            if (std::abs(steps) < 0x1p52) origin[axis] = steps * origin_step_m + 0.0;
+        }
+        return origin;
+    }
+
+private:
+    dvec3 lo_ = dvec3(std::numeric_limits<double>::infinity());
+    dvec3 hi_ = dvec3(-std::numeric_limits<double>::infinity());
+};
+
+/// The scene's centre at rest, rounded to whole steps. Skinned meshes count as they lie under each of their joints.
+dvec3 choose_origin(Scene const& scene, Pose const& rest) {
     std::vector<math::Aabb> boxes;
     std::vector<std::size_t> first_box;
     for (Mesh const& mesh : scene.meshes) {
@@ -106,40 +105,49 @@ dvec3 choose_origin(Scene const& scene) {
         for (Primitive const& p : mesh.primitives)
             boxes.push_back(p.indices.empty() ? math::Aabb{} : math::bounds_of(p.positions));
     }
-    dvec3 lo(inf);
-    dvec3 hi(-inf);
-    for (Instance const& instance : scene.instances)
+    WorldBox world;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        Instance const& instance = scene.instances[i];
         for (std::size_t p = 0; p < scene.meshes[instance.mesh].primitives.size(); ++p) {
             math::Aabb const& box = boxes[first_box[instance.mesh] + p];
             if (math::is_empty(box)) continue;
-            for (unsigned corner = 0; corner < 8; ++corner) {
-                dvec3 const w = to_world(instance.world_from_mesh, math::corner(box, corner));
-                if (!math::is_finite(w)) continue;
-                lo = glm::min(lo, w);
-                hi = glm::max(hi, w);
+            if (instance.skin == none || scene.meshes[instance.mesh].primitives[p].influences == 0) {
+                world.add(rest.world_from_mesh[i], box);
+                continue;
             }
+            for (std::uint32_t j = rest.first_joint[instance.skin]; j < rest.first_joint[instance.skin + 1]; ++j)
+                world.add(rest.world_from_bind[j], box);
         }
-    dvec3 origin(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        double const steps = std::round((lo[axis] * 0.5 + hi[axis] * 0.5) / origin_step_m);
-        // Beyond 2^52 steps a step is less than an ulp; the scene has no detail to save there.
-        if (std::abs(steps) < 0x1p52) origin[axis] = steps * origin_step_m + 0.0;
     }
-    return origin;
+    return world.rounded_centre();
+}
+
+math::Aabb united(std::vector<math::Aabb> const& boxes) noexcept {
+    math::Aabb all;
+    for (math::Aabb const& box : boxes)
+        if (!math::is_empty(box)) all = math::merged(all, box);
+    return all;
 }
 
 class Flattener {
 public:
-    Flattener(Scene const& scene, dvec3 const& origin) : scene_(scene) { out_.origin_m = origin; }
+    Flattener(Scene const& scene, Pose const& pose, dvec3 const& origin) : scene_(scene), pose_(pose) {
+        out_.origin_m = origin;
+        out_.instance_bounds.resize(scene.instances.size());
+    }
 
     Geometry run() {
         std::vector<Part> const parts = ordered_parts(scene_);
         reserve(parts);
         for (Part const& part : parts) {
-            auto const first = triangle_count();
-            add(part);
-            if (triangle_count() != first) close_range(part, first);
+            Range range{triangle_count(), 0, primitive_of(part).material, part.instance, part.primitive, 0, 0, false};
+            range.first_vertex = static_cast<std::uint32_t>(out_.positions.size());
+            range.vertex_count = static_cast<std::uint32_t>(primitive_of(part).positions.size());
+            add(part, range);
+            range.triangle_count = triangle_count() - range.first_triangle;
+            if (range.triangle_count != 0) close(range);
         }
+        out_.bounds = united(out_.instance_bounds);
         return std::move(out_);
     }
 
@@ -168,12 +176,14 @@ private:
         out_.triangle_instance.reserve(triangles);
     }
 
-    void add(Part const& part) {
+    void add(Part const& part, Range& range) {
         Primitive const& p = primitive_of(part);
-        dmat4 const& m = scene_.instances[part.instance].world_from_mesh;
-        bool const mirrors = determinant(m) < 0.0;
-        auto const base = static_cast<std::uint32_t>(out_.positions.size());
-        add_vertices(p, m, mirrors);
+        PosedPart const posed(scene_, pose_, part.instance, part.primitive);
+        bool const mirrors = posed.mirrors();
+        std::uint32_t const base = range.first_vertex;
+        math::Aabb& bounds = out_.instance_bounds[part.instance];
+        range.mirrored = mirrors;
+        add_vertices(p, posed);
         for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
             std::array<std::uint32_t, 3> t{base + p.indices[i], base + p.indices[i + 1], base + p.indices[i + 2]};
             if (mirrors) std::swap(t[1], t[2]);
@@ -185,46 +195,88 @@ private:
             }
             for (std::uint32_t index : t) {
                 out_.indices.push_back(index);
-                out_.bounds = math::extended(out_.bounds, out_.positions[index]);
+                bounds = math::extended(bounds, out_.positions[index]);
             }
             out_.triangle_material.push_back(p.material);
             out_.triangle_instance.push_back(part.instance);
         }
     }
 
-    void add_vertices(Primitive const& p, dmat4 const& m, bool mirrors) {
-        dmat3 const turn = normal_matrix(m, mirrors);
+    void add_vertices(Primitive const& p, PosedPart const& posed) {
         Material const& material = scene_.materials[p.material];
         UvTransform const transform(material.base_color_texture);
         std::vector<vec2> const& uv = material.base_color_texture.uv_set == 1 ? p.uv1 : p.uv0;
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
-            out_.positions.push_back(math::to_float(to_world(m, p.positions[v]) - out_.origin_m));
-            dvec3 const n = math::to_double(p.normals[v]);
-            out_.normals.push_back(unit_or(turn[0] * n.x + turn[1] * n.y + turn[2] * n.z, vec3(0.0F, 1.0F, 0.0F)));
+            PosedPart::Vertex const vertex = posed.vertex(v);
+            out_.positions.push_back(math::to_float(vertex.world_m - out_.origin_m));
+            out_.normals.push_back(vertex.normal);
             out_.uv.push_back(transform(uv.empty() ? vec2(0.0F) : uv[v]));
         }
     }
 
-    void close_range(Part const& part, std::uint32_t first) {
-        Material const& material = scene_.materials[primitive_of(part).material];
-        std::uint32_t const count = triangle_count() - first;
-        out_.ranges.push_back({first, count, primitive_of(part).material, part.instance});
+    void close(Range const& range) {
+        Material const& material = scene_.materials[range.material];
+        out_.ranges.push_back(range);
         bool const goes_on = !out_.draws.empty() && out_.draws.back().alpha_mode == material.alpha_mode &&
                              out_.draws.back().double_sided == material.double_sided;
         if (goes_on)
-            out_.draws.back().triangle_count += count;
+            out_.draws.back().triangle_count += range.triangle_count;
         else
-            out_.draws.push_back({first, count, material.alpha_mode, material.double_sided});
+            out_.draws.push_back({range.first_triangle, range.triangle_count, material.alpha_mode, material.double_sided});
     }
 
     Scene const& scene_;
+    Pose const& pose_;
     Geometry out_;
 };
 
+/// Moves the vertices of one range; those that have no finite place stay.
+void move_vertices(Geometry& geometry, Range const& range, PosedPart const& posed) noexcept {
+    for (std::uint32_t v = 0; v < range.vertex_count; ++v) {
+        PosedPart::Vertex const vertex = posed.vertex(v);
+        vec3 const position = math::to_float(vertex.world_m - geometry.origin_m);
+        if (!math::is_finite(position)) {
+            ++geometry.held_vertices;
+            continue;
+        }
+        geometry.positions[range.first_vertex + v] = position;
+        geometry.normals[range.first_vertex + v] = vertex.normal;
+    }
+}
+
+void move_range(Geometry& geometry, Range& range, PosedPart const& posed) noexcept {
+    move_vertices(geometry, range, posed);
+    math::Aabb& bounds = geometry.instance_bounds[range.instance];
+    bool const turned = range.mirrored != posed.mirrors();
+    range.mirrored = posed.mirrors();
+    std::size_t const end = (static_cast<std::size_t>(range.first_triangle) + range.triangle_count) * 3;
+    for (std::size_t i = static_cast<std::size_t>(range.first_triangle) * 3; i < end; i += 3) {
+        if (turned) std::swap(geometry.indices[i + 1], geometry.indices[i + 2]);
+        for (std::size_t k = i; k < i + 3; ++k) bounds = math::extended(bounds, geometry.positions[geometry.indices[k]]);
+    }
+}
+
 }  // namespace
 
+Geometry flatten(Scene const& scene, Pose const& pose, FlattenConfig const& config) {
+    return Flattener(scene, pose, config.origin_m ? *config.origin_m : choose_origin(scene, rest_pose(scene))).run();
+}
+
 Geometry flatten(Scene const& scene, FlattenConfig const& config) {
-    return Flattener(scene, config.origin_m ? *config.origin_m : choose_origin(scene)).run();
+    Pose const rest = rest_pose(scene);
+    return Flattener(scene, rest, config.origin_m ? *config.origin_m : choose_origin(scene, rest)).run();
+}
+
+void update(Geometry& geometry, Scene const& scene, Pose const& pose) {
+    GNOMON_EXPECT(geometry.instance_bounds.size() == scene.instances.size() &&
+                  pose.world_from_mesh.size() == scene.instances.size());
+    geometry.held_vertices = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (is_posed(scene, scene.instances[i])) geometry.instance_bounds[i] = math::Aabb{};
+    for (Range& range : geometry.ranges)
+        if (is_posed(scene, scene.instances[range.instance]))
+            move_range(geometry, range, PosedPart(scene, pose, range.instance, range.primitive));
+    geometry.bounds = united(geometry.instance_bounds);
 }
 
 }  // namespace gnomon::scene

@@ -1,5 +1,6 @@
 #include "detail/gltf_accessor.hpp"
 #include "detail/gltf_parts.hpp"
+#include "detail/transforms.hpp"
 
 #include <gnomon/math/scalar.hpp>
 
@@ -16,49 +17,6 @@ using math::dvec3;
 using math::dvec4;
 
 constexpr double half_turn = 3.14159265358979323846;
-
-/// a * b for matrices whose last row is 0 0 0 1, in one order of operations.
-dmat4 multiplied(dmat4 const& a, dmat4 const& b) noexcept {
-    dmat4 out(1.0);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row) {
-            double const linear = (a[0][row] * b[column][0] + a[1][row] * b[column][1]) + a[2][row] * b[column][2];
-            out[column][row] = column == 3 ? linear + a[3][row] : linear;
-        }
-    return out;
-}
-
-/// Translation, rotation (x y z w, scaled to length 1; nothing where it has none) and scale as a matrix.
-dmat4 from_trs(dvec3 const& t, dvec4 const& r, dvec3 const& s) noexcept {
-    double const length = std::sqrt(((r.x * r.x + r.y * r.y) + r.z * r.z) + r.w * r.w);
-    bool const turns = length > 0.0 && math::is_finite(length);
-    double const x = turns ? r.x / length : 0.0;
-    double const y = turns ? r.y / length : 0.0;
-    double const z = turns ? r.z / length : 0.0;
-    double const w = turns ? r.w / length : 1.0;
-    dmat4 m(1.0);
-    m[0] = dvec4(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y), 0.0) * s.x;
-    m[1] = dvec4(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x), 0.0) * s.y;
-    m[2] = dvec4(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y), 0.0) * s.z;
-    m[3] = dvec4(t.x, t.y, t.z, 1.0);
-    return m;
-}
-
-bool all_finite(dmat4 const& m) noexcept {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!math::is_finite(m[column][row])) return false;
-    return true;
-}
-
-/// `v` with length 1. What has it already, to a part in 1e12, stays as it is: a second reading changes nothing.
-dvec3 kept_unit(dvec3 const& v, dvec3 const& fallback) noexcept {
-    double const length_sq = (v.x * v.x + v.y * v.y) + v.z * v.z;
-    if (std::abs(length_sq - 1.0) < 1e-12) return v;
-    return length_sq > 0.0 && math::is_finite(length_sq) ? v / std::sqrt(length_sq) : fallback;
-}
-
-dvec3 column(dmat4 const& m, int i) noexcept { return {m[i][0], m[i][1], m[i][2]}; }
 
 class NodeLoader {
 public:
@@ -114,7 +72,7 @@ private:
         dvec3 const s = n.scale.empty() ? dvec3(1.0) : dvec3(n.scale[0], n.scale[1], n.scale[2]);
         dvec4 const r = n.rotation.empty() ? dvec4(0.0, 0.0, 0.0, 1.0)
                                            : dvec4(n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]);
-        return from_trs(t, r, s);
+        return from_trs({t, r, s});
     }
 
     /// From the roots down with a list of its own, so that no depth of hierarchy is too deep for the stack.
@@ -227,9 +185,9 @@ private:
             auto const number = [&](Accessor const& a, int c, double fallback) {
                 return a.components == 0 ? fallback : static_cast<double>(a.at(k, c));
             };
-            dmat4 const own = from_trs({number(t, 0, 0.0), number(t, 1, 0.0), number(t, 2, 0.0)},
-                                       {number(r, 0, 0.0), number(r, 1, 0.0), number(r, 2, 0.0), number(r, 3, 1.0)},
-                                       {number(s, 0, 1.0), number(s, 1, 1.0), number(s, 2, 1.0)});
+            dmat4 const own = from_trs({{number(t, 0, 0.0), number(t, 1, 0.0), number(t, 2, 0.0)},
+                                        {number(r, 0, 0.0), number(r, 1, 0.0), number(r, 2, 0.0), number(r, 3, 1.0)},
+                                        {number(s, 0, 1.0), number(s, 1, 1.0), number(s, 2, 1.0)}});
             add_instance(i, mesh, multiplied(world_[i], own));
         }
     }
@@ -244,21 +202,17 @@ private:
             fail(SceneError::over_limit, item("node", i) + " brings the drawn triangles above the limit of " +
                                              std::to_string(document_.config.limits.max_triangles) +
                                              "; simplify the scene or raise max_triangles");
-        scene_.instances.push_back({nodes_[i].name, mesh, world});
+        Instance instance;
+        instance.name = nodes_[i].name;
+        instance.mesh = mesh;
+        instance.world_from_mesh = world;
+        scene_.instances.push_back(std::move(instance));
     }
 
     void add_camera(std::size_t i, tinygltf::Camera const& in) {
         Camera out;
         out.name = in.name.empty() ? nodes_[i].name : in.name;
-        out.eye_m = column(world_[i], 3);
-        out.back = kept_unit(column(world_[i], 2), {0.0, 0.0, 1.0});
-        dvec3 const side = column(world_[i], 0);
-        double const lean = glm::dot(side, out.back);
-        out.right = kept_unit(std::abs(lean) < 1e-12 ? side : side - out.back * lean, {1.0, 0.0, 0.0});
-        out.up = column(world_[i], 1);
-        dvec3 const upright = glm::cross(out.back, out.right);
-        dvec3 const off = out.up - upright;
-        if (!(glm::dot(off, off) < 1e-24)) out.up = upright;
+        place(out, camera_placed_by(world_[i]));
         bool usable = false;
         if (in.type == "orthographic") {
             out.kind = CameraKind::orthographic;
@@ -287,8 +241,7 @@ private:
         out.kind = in.type == "directional" ? LightKind::directional
                    : in.type == "point"     ? LightKind::point
                                             : LightKind::spot;
-        out.position_m = column(world_[i], 3);
-        out.direction = -kept_unit(column(world_[i], 2), {0.0, 0.0, 1.0});
+        place(out, light_placed_by(world_[i]));
         for (std::size_t c = 0; c < in.color.size() && c < 3; ++c) out.color[static_cast<int>(c)] = rounded(in.color[c]);
         out.intensity = std::max(rounded(in.intensity), 0.0F);
         if (in.range > 0.0) out.range_m = rounded(in.range);

@@ -1,5 +1,8 @@
-#include <gnomon/math/scalar.hpp>
 #include <gnomon/scene/scene.hpp>
+
+#include "detail/validate_motion.hpp"
+
+#include <gnomon/math/scalar.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -133,6 +136,14 @@ Result<Done> validate_lights(Scene const& scene) {
 
 }  // namespace
 
+std::uint32_t count_morph_targets(Mesh const& mesh) noexcept {
+    return mesh.primitives.empty() ? 0 : static_cast<std::uint32_t>(mesh.primitives.front().morph_targets.size());
+}
+
+bool is_posed(Scene const& scene, Instance const& instance) noexcept {
+    return instance.node != none || instance.skin != none || count_morph_targets(scene.meshes[instance.mesh]) != 0;
+}
+
 std::uint64_t count_triangles(Scene const& scene) noexcept {
     std::uint64_t count = 0;
     for (Instance const& instance : scene.instances)
@@ -158,7 +169,8 @@ Result<Done> validate(Scene const& scene) {
                 return ok;
     if (auto ok = validate_instances(scene); !ok) return ok;
     if (auto ok = validate_cameras(scene); !ok) return ok;
-    return validate_lights(scene);
+    if (auto ok = validate_lights(scene); !ok) return ok;
+    return detail::validate_motion(scene);
 }
 
 Camera looking_at(std::string name, math::dvec3 const& eye_m, math::dvec3 const& target_m, double fov_y_rad) {

@@ -8,6 +8,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/math/texel.hpp>
 #include <gnomon/math/vec.hpp>
+#include <gnomon/scene/animation.hpp>
 
 #include <array>
 #include <cstdint>
@@ -16,9 +17,6 @@
 #include <vector>
 
 namespace gnomon::scene {
-
-/// The index that names nothing.
-inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 enum class SceneError : std::uint8_t {
     not_found,              ///< No such file: check the path.
@@ -89,22 +87,31 @@ struct Primitive {
     std::vector<math::vec2> uv1;         ///< One per position, or none at all.
     std::vector<std::uint32_t> indices;  ///< Three per triangle.
     std::uint32_t material = none;       ///< Always an index in a valid scene.
+    std::uint32_t influences = 0;        ///< Joints per position: 0, 4 or 8.
+    std::vector<std::uint16_t> joints;   ///< `influences` per position, into the joints of the instance's skin.
+    std::vector<float> joint_weights;    ///< As many, not negative; they sum to 1.
+    std::vector<MorphTarget> morph_targets;
 
     friend bool operator==(Primitive const&, Primitive const&) = default;
 };
 
 struct Mesh {
     std::string name;
-    std::vector<Primitive> primitives;
+    std::vector<Primitive> primitives;  ///< All with equally many morph targets.
+    std::vector<float> weights{};       ///< Of the morph targets while nothing moves them: one each, or none: zeros.
 
     friend bool operator==(Mesh const&, Mesh const&) = default;
 };
 
-/// One mesh standing somewhere. The node hierarchy of a file is multiplied out, in double.
+/// One mesh standing somewhere. What a file says about nodes that never move is multiplied out, in double.
 struct Instance {
     std::string name;
     std::uint32_t mesh = none;
-    math::dmat4 world_from_mesh{1.0};
+    math::dmat4 world_from_mesh{1.0};  ///< At rest; where a node carries it, as `settle` computes it.
+    std::uint32_t node = none;         ///< Into `Scene::nodes`, where one carries it.
+    math::dmat4 node_from_mesh{1.0};   ///< With a node only.
+    std::uint32_t skin = none;         ///< Its joints then place each vertex, and no matrix here does.
+    std::vector<float> weights{};      ///< Of the morph targets, instead of the mesh's: one each, or none.
 
     friend bool operator==(Instance const&, Instance const&) = default;
 };
@@ -114,7 +121,7 @@ enum class CameraKind : std::uint8_t {
     orthographic,
 };
 
-/// A camera with its pose in the world. Axes are orthonormal; it looks along -back.
+/// A camera with its pose in the world, at rest. Axes are orthonormal; it looks along -back.
 struct Camera {
     std::string name;
     CameraKind kind = CameraKind::perspective;
@@ -127,6 +134,8 @@ struct Camera {
     double half_height_m = 1.0;             ///< Orthographic only.
     double near_m = 0.1;
     double far_m = std::numeric_limits<double>::infinity();
+    std::uint32_t node = none;          ///< Into `Scene::nodes`, where one carries it.
+    math::dmat4 node_from_camera{1.0};  ///< With a node only.
 
     friend bool operator==(Camera const&, Camera const&) = default;
 };
@@ -137,7 +146,7 @@ enum class LightKind : std::uint8_t {
     spot,
 };
 
-/// A light of KHR_lights_punctual with its pose in the world.
+/// A light of KHR_lights_punctual with its pose in the world, at rest.
 struct Light {
     std::string name;
     LightKind kind = LightKind::directional;
@@ -148,6 +157,8 @@ struct Light {
     float range_m = std::numeric_limits<float>::infinity();  ///< Point and spot; no light beyond it.
     float inner_cone_rad = 0.0F;                             ///< Half angle. Spot only.
     float outer_cone_rad = 0.78539816339744831F;             ///< Half angle. Spot only.
+    std::uint32_t node = none;                               ///< Into `Scene::nodes`, where one carries it.
+    math::dmat4 node_from_light{1.0};                        ///< With a node only. Light goes along -z.
 
     friend bool operator==(Light const&, Light const&) = default;
 };
@@ -159,6 +170,8 @@ struct Notes {
     std::uint64_t mended_normals = 0;        ///< Zero, NaN or infinite; the triangle's own normal stands in.
     std::uint64_t mended_uvs = 0;            ///< NaN or infinite; 0 stands in.
     std::uint64_t failed_images = 0;         ///< Missing or unreadable; plain white stands in.
+    std::uint64_t mended_weights = 0;        ///< Vertices whose joint weights did not sum to 1; scaled to it.
+    std::uint64_t dropped_channels = 0;      ///< Of animations: nothing here to move, or keys that make no sense; left out.
     std::vector<std::string> warnings;       ///< One sentence each, at most `Limits::max_warnings`.
 
     friend bool operator==(Notes const&, Notes const&) = default;
@@ -173,11 +186,15 @@ struct Scene {
     std::vector<Image> images;
     std::vector<Camera> cameras;  ///< Named views too: `A`, `street`.
     std::vector<Light> lights;
-    Notes notes;  ///< Not a part of what the scene is: not compared.
+    std::vector<Node> nodes;            ///< Those that move, and what they and the joints hang on. Parents come first.
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;  ///< The clips; one plays at a time, unless all are asked for.
+    Notes notes;                        ///< Not a part of what the scene is: not compared.
 
     friend bool operator==(Scene const& a, Scene const& b) {
         return a.name == b.name && a.meshes == b.meshes && a.instances == b.instances && a.materials == b.materials &&
-               a.textures == b.textures && a.images == b.images && a.cameras == b.cameras && a.lights == b.lights;
+               a.textures == b.textures && a.images == b.images && a.cameras == b.cameras && a.lights == b.lights &&
+               a.nodes == b.nodes && a.skins == b.skins && a.animations == b.animations;
     }
 };
 
@@ -193,6 +210,19 @@ using Result = core::Result<T, SceneError>;
 /// The first rule of this header that `scene` breaks, in one sentence: an index out of range, arrays of unequal length,
 /// a number that is not finite. For scenes put together by hand; the loader and the generators give valid ones.
 [[nodiscard]] Result<core::Done> validate(Scene const& scene);
+
+/// Morph targets of `mesh`, the same for each of its primitives.
+[[nodiscard]] std::uint32_t count_morph_targets(Mesh const& mesh) noexcept;
+
+/// Whether the instance's vertices may differ from those of the mesh where `world_from_mesh` puts them: a node carries it,
+/// or joints or morph targets bend it.
+[[nodiscard]] bool is_posed(Scene const& scene, Instance const& instance) noexcept;
+
+/// Puts the instances, cameras and lights that nodes carry where the nodes, at rest, put them. For scenes put together by
+/// hand, after the last node, instance, camera and light.
+///
+/// expects: the indices hold, as `validate` says.
+void settle(Scene& scene);
 
 /// A camera at `eye_m` that looks at `target_m`, upright.
 ///
