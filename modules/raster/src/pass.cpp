@@ -86,6 +86,7 @@ class Pass {
             draw_tiles();
             begin = end;
         } while (begin < plan_.triangles);
+        for (LayerPlan const& layer : plan_.layers) finish_pyramid(layer);
     }
 
   private:
@@ -272,7 +273,17 @@ class Pass {
                                  });
         }
         if (loaded) detail::store_tile(layer, job);
+        if (loaded && layer.summarizes) detail::summarize_tile(layer, job);
         return written;
+    }
+
+    void finish_pyramid(LayerPlan const& layer) const {
+        DepthPyramid* const pyramid = layer.layer->config.pyramid;
+        if (pyramid == nullptr) return;
+        if (layer.summarizes)
+            build_upper_levels(*pyramid);
+        else
+            build_pyramid(layer.layer->target, layer.layer->config.depth, *pyramid, executor_);
     }
 
     Workspace::State& state_;

@@ -25,6 +25,12 @@ std::int32_t columns_past_a_line(ImageView<float> const& image) {
     return image.stride % 16 == 0 ? static_cast<std::int32_t>(address % 64 / sizeof(float)) : 0;
 }
 
+/// Whether tiles can hand out their blocks as they are stored: whole blocks, all of them drawn by this pass.
+bool hands_out_blocks(LayerPlan const& plan, Layer const& layer) {
+    return layer.config.pyramid != nullptr && layer.config.load == Load::clear && plan.grid.shift_x % 8 == 0 &&
+           plan.x0 == 0 && plan.y0 == 0 && plan.x1 == layer.target.width() && plan.y1 == layer.target.height();
+}
+
 /// returns: whether anything can be drawn: some pixels, and a viewport.
 bool begin_layer(LayerPlan& plan, Layer const& layer) {
     Rect const whole{0, 0, layer.target.width(), layer.target.height()};
@@ -40,6 +46,8 @@ bool begin_layer(LayerPlan& plan, Layer const& layer) {
     plan.streams = plan.kernel->stream != nullptr && !layer.target.is_unorm16() &&
                    std::int64_t{whole.width} * whole.height >= streamed_pixels;
     plan.grid = make_bin_grid(whole.width, whole.height, plan.streams ? columns_past_a_line(layer.target.f32()) : 0);
+    plan.summarizes = hands_out_blocks(plan, layer);
+    if (plan.summarizes) config.pyramid->fit(layer.target, config.depth);
     Rect const viewport = config.viewport.value_or(whole);
     if (viewport.width <= 0 || viewport.height <= 0) return false;
     plan.viewport = make_viewport(viewport, config.range == DepthRange::clip);

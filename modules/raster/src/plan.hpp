@@ -50,6 +50,7 @@ struct LayerPlan {
     KernelTable const* kernel;
     ViewportTransform viewport;
     bool streams;                 // Tiles are stored past the caches.
+    bool summarizes;              // Tiles hand out their blocks of the pyramid.
     std::int32_t x0, y0, x1, y1;  // What is cleared and drawn: scissor and target.
     BinGrid grid;
     std::size_t first_triangle, end_triangle;  // In the pass.

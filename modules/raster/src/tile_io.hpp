@@ -2,6 +2,7 @@
 // A tile's local image, filled from its layer's target and copied back.
 
 #include "plan.hpp"
+#include "summary.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -49,6 +50,18 @@ inline void store_tile(LayerPlan const& layer, TileJob const& job) {
         float const* const row = job.depth + std::ptrdiff_t{y - job.y0} * tile_pitch;
         std::transform(row, row + (job.x1 - job.x0), depth.unorm16().row(y) + job.x0,
                        [](float code) { return static_cast<std::uint16_t>(code); });
+    }
+}
+
+/// Writes the tile's blocks to the layer's pyramid, while the tile is still in the nearest cache.
+inline void summarize_tile(LayerPlan const& layer, TileJob const& job) {
+    DepthPyramid& pyramid = *layer.layer->config.pyramid;
+    ImageView<float> const least = pyramid.least(0);
+    ImageView<float> const greatest = pyramid.greatest(0);
+    for (std::int32_t y = job.y0; y < job.y1; y += 8) {
+        SampleRows const rows{job.depth + std::ptrdiff_t{y - job.y0} * tile_pitch, tile_pitch, job.x1 - job.x0,
+                              std::min(8, job.y1 - y)};
+        best_summary().summarize(rows, least.row(y >> 3) + (job.x0 >> 3), greatest.row(y >> 3) + (job.x0 >> 3));
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <gnomon/core/executor.hpp>
 #include <gnomon/math/view.hpp>
+#include <gnomon/raster/depth_pyramid.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/target.hpp>
 
@@ -44,6 +45,7 @@ struct PassConfig {
     std::optional<Rect>
         viewport{};  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
     std::optional<Rect> scissor{};  ///< The only pixels cleared and drawn; the whole target by default.
+    DepthPyramid* pyramid = nullptr;  ///< If given, is that of the whole target when the pass ends: see `build_pyramid`.
 };
 
 /// Where a pass's triangles went. `triangles` is the sum of the eight counts below it up to `drawn`.
