@@ -6,5 +6,6 @@
 #include <gnomon/raster/instances.hpp>
 #include <gnomon/raster/layers.hpp>
 #include <gnomon/raster/pass.hpp>
+#include <gnomon/raster/sample_query.hpp>
 #include <gnomon/raster/target.hpp>
 #include <gnomon/raster/triangle.hpp>
