@@ -4,7 +4,7 @@
 set -eu
 . "$(dirname "$0")/steps.sh"
 
-demo_packages="ca-certificates cmake g++ ninja-build libglm-dev libtinygltf-dev libtbb-dev libcli11-dev libfmt-dev libstb-dev nlohmann-json3-dev"
+demo_packages="ca-certificates cmake g++ ninja-build libglm-dev libtinygltf-dev libtbb-dev libcli11-dev libfmt-dev libstb-dev libwebp-dev nlohmann-json3-dev"
 test_packages="$demo_packages libembree-dev libbenchmark-dev"
 ci_packages="$test_packages ccache catch2 clang-16 libclang-rt-16-dev"
 

@@ -48,15 +48,16 @@ Bytes png_from(Picture const& picture) {
     return png;
 }
 
-std::string data_uri(std::span<unsigned char const> png) {
+std::string data_uri(std::span<unsigned char const> file) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text = "data:image/png;base64,";
-    text.reserve(text.size() + (png.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < png.size(); i += 3) {
-        std::size_t const have = png.size() - i;
-        unsigned const a = png[i];
-        unsigned const b = have > 1 ? png[i + 1] : 0u;
-        unsigned const c = have > 2 ? png[i + 2] : 0u;
+    bool const webp = file.size() > 4 && file[0] == 'R' && file[1] == 'I' && file[2] == 'F' && file[3] == 'F';
+    std::string text = webp ? "data:image/webp;base64," : "data:image/png;base64,";
+    text.reserve(text.size() + (file.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < file.size(); i += 3) {
+        std::size_t const have = file.size() - i;
+        unsigned const a = file[i];
+        unsigned const b = have > 1 ? file[i + 1] : 0u;
+        unsigned const c = have > 2 ? file[i + 2] : 0u;
         unsigned const word = a << 16 | b << 8 | c;
         text += digits[word >> 18 & 63];
         text += digits[word >> 12 & 63];

@@ -27,7 +27,7 @@ struct Picture {
 /// The picture as a PNG file's bytes; empty for an empty picture.
 [[nodiscard]] Bytes png_from(Picture const& picture);
 
-/// "data:image/png;base64,...", for pages that carry their pictures with them.
-[[nodiscard]] std::string data_uri(std::span<unsigned char const> png);
+/// "data:image/png;base64,...", or image/webp by the file's first bytes, for pages that carry their pictures with them.
+[[nodiscard]] std::string data_uri(std::span<unsigned char const> file);
 
 }  // namespace gnomon::command

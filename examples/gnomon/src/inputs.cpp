@@ -1,8 +1,8 @@
 #include "inputs.hpp"
 
+#include "find_by_name.hpp"
 #include "values.hpp"
 
-#include <gnomon/scene/load.hpp>
 #include <gnomon/scene/procedural.hpp>
 #include <gnomon/scene/suggest.hpp>
 
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 namespace gnomon::command {
@@ -21,74 +20,6 @@ constexpr double pi = 3.14159265358979323846;
 
 /// The shortest text that reads back as the same numbers.
 std::string text_of(math::dvec3 const& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
-/// Whether the text can only mean a file.
-bool looks_like_path(std::string const& text) {
-    std::error_code ignored;
-    return text.find('/') != std::string::npos || text.ends_with(".glb") || text.ends_with(".gltf") ||
-           std::filesystem::exists(text, ignored);
-}
-
-Outcome<LoadedScene> load_built_in(SceneOptions const& options) {
-    scene::ProceduralConfig const& config = options.config;
-    auto made = scene::make_procedural(config);
-    if (!made) return usage_error(made.failure().message);
-    std::string text = config.name;
-    if (config.triangles != 0) text += fmt::format(" --triangles {}", config.triangles);
-    if (config.blocks != 1) text += fmt::format(" --blocks {}", config.blocks);
-    if (config.offset_m != 0.0) text += fmt::format(" --offset {:.10g}", config.offset_m);
-    if (config.seed != 0) text += fmt::format(" --seed {}", config.seed);
-    return LoadedScene{*std::move(made), text, true};
-}
-
-/// "scene.glb" alone says little: the folder's name goes with it.
-std::string short_name(std::string const& path) {
-    std::filesystem::path const file(path);
-    std::string const folder = file.parent_path().filename().string();
-    return folder.empty() || folder == "." || folder == ".." ? file.filename().string()
-                                                             : folder + '/' + file.filename().string();
-}
-
-Outcome<LoadedScene> load_file(SceneOptions const& options) {
-    std::string const& path = options.config.name;
-    if (options.tuned_by)
-        return usage_error(
-            fmt::format("{}: {} is a file, and only built-in scenes take this; leave it out", *options.tuned_by, path));
-    auto loaded = scene::load_gltf(path);
-    if (!loaded) return failure(loaded.failure().message);
-    return LoadedScene{*std::move(loaded), short_name(path), false};
-}
-
-/// What to call the thing at `index`: its name, or its number from 1 where the file gives none.
-std::string name_of(auto const& things, std::size_t index) {
-    return things[index].name.empty() ? std::to_string(index + 1) : things[index].name;
-}
-
-std::vector<std::string> names_of(auto const& things) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < things.size(); ++i) names.push_back(name_of(things, i));
-    return names;
-}
-
-/// No camera or light of this name: because the file's was left out, or because there never was one.
-core::Failure<Exit> not_found(std::string const& option, std::string const& wanted, auto const& things,
-                              scene::Notes const& notes) {
-    for (std::string const& warning : notes.warnings)
-        if (warning.find('\'' + wanted + '\'') != std::string::npos)
-            return failure(fmt::format("{} {}: {}; mend the file or choose another", option, wanted,
-                                       warning.substr(0, warning.find_last_not_of('.') + 1)));
-    return usage_error(fmt::format("{} {}: the scene has none of this name; {}", option, wanted,
-                                   suggestion(wanted, names_of(things))));
-}
-
-/// Where the thing of this name stands, or of this number counted from 1; a name goes first.
-std::optional<std::size_t> find_by_name(auto const& things, std::string const& wanted) {
-    for (std::size_t i = 0; i < things.size(); ++i)
-        if (things[i].name == wanted) return i;
-    auto const number = integer_from(wanted);
-    bool const in_range = number && *number >= 1 && static_cast<std::uint64_t>(*number) <= things.size();
-    return in_range ? std::optional(static_cast<std::size_t>(*number - 1)) : std::nullopt;
-}
 
 /// Near and far as the user wants them, whatever gave the view.
 Outcome<Described<math::View>> with_range(math::View view, std::string text, ViewOptions const& options) {
@@ -111,16 +42,22 @@ Outcome<Described<math::View>> view_at(math::PerspectiveConfig const& config, Vi
                       options);
 }
 
-Outcome<Described<math::View>> view_of_camera(std::vector<scene::Camera> const& cameras, std::size_t index,
-                                              ViewOptions const& options) {
-    scene::Camera ranged = cameras[index];  // the user's range may mend the file's
-    if (options.near_m) ranged.near_m = *options.near_m;
-    if (options.far_m) ranged.far_m = *options.far_m;
-    auto view = scene::make_view(ranged, options.size_px);
-    if (!view)
-        return failure(fmt::format("camera '{}': {}; give --near and --far, or --eye and --look",
-                                   name_of(cameras, index), view.failure().message));
-    return with_range(*view, "--camera " + name_of(cameras, index), options);
+Outcome<math::View> view_of(scene::Camera camera, ViewOptions const& options, std::string const& name) {
+    if (options.near_m) camera.near_m = *options.near_m;  // the user's range may mend the file's
+    if (options.far_m) camera.far_m = *options.far_m;
+    auto view = scene::make_view(camera, options.size_px);
+    if (view) return *view;
+    return failure(
+        fmt::format("{}: {}; give --near and --far, or --eye and --look", name, view.failure().message));
+}
+
+Outcome<Described<math::View>> view_of_camera(Stage const& stage, std::size_t index, ViewOptions const& options) {
+    std::string const name = name_of(stage.loaded.scene.cameras, index);
+    scene::Camera const camera =
+        scene::posed_camera(stage.loaded.scene, stage.pose, static_cast<std::uint32_t>(index));
+    auto view = view_of(camera, options, "camera '" + name + "'");
+    if (!view) return std::move(view).failure();
+    return with_range(*view, "--camera " + name, options);
 }
 
 /// The same direction with its largest component 1, so that neither 1e-300 nor 1e300 is lost in a float.
@@ -157,22 +94,11 @@ Outcome<Described<math::View>> suggested_view(scene::Geometry const& geometry, V
 
 }  // namespace
 
-Outcome<LoadedScene> load_scene(SceneOptions const& options) {
-    std::string const& name = options.config.name;
-    if (scene::is_procedural(name)) return load_built_in(options);
-    if (looks_like_path(name)) return load_file(options);
-    std::vector<std::string> known;
-    for (scene::ProceduralInfo const& info : scene::procedural_scenes()) known.emplace_back(info.name);
-    return usage_error(
-        fmt::format("scene '{}': no file and no built-in scene of this name; {}", name, suggestion(name, known)));
-}
-
-Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedScene const& loaded,
-                                           scene::Geometry const& geometry) {
-    std::vector<scene::Camera> const& cameras = loaded.scene.cameras;
+Outcome<Described<math::View>> choose_view(ViewOptions const& options, Stage const& stage) {
+    std::vector<scene::Camera> const& cameras = stage.loaded.scene.cameras;
     if (options.camera) {
-        if (auto const found = find_by_name(cameras, *options.camera)) return view_of_camera(cameras, *found, options);
-        return not_found("--camera", *options.camera, cameras, loaded.scene.notes);
+        if (auto const found = find_by_name(cameras, *options.camera)) return view_of_camera(stage, *found, options);
+        return not_found("--camera", *options.camera, cameras, stage.loaded.scene.notes);
     }
     math::PerspectiveConfig config;
     config.size_px = options.size_px;
@@ -184,16 +110,78 @@ Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedSce
         config.far_m = options.far_m.value_or(std::numeric_limits<double>::infinity());
         return view_at(config, options);
     }
-    if (loaded.built_in && !cameras.empty()) return view_of_camera(cameras, 0, options);
-    return suggested_view(geometry, options);
+    if (stage.loaded.built_in && !cameras.empty()) return view_of_camera(stage, 0, options);
+    return suggested_view(stage.geometry, options);
 }
 
-Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene,
-                                             scene::Geometry const& geometry, math::View const& view) {
+namespace {
+
+/// The path as asked for: of the scene, or `orbit`, which fits any.
+Outcome<scene::CameraPath> path_of(RunOptions const& options, Stage const& stage) {
+    constexpr int usual_frames = 120;
+    MotionOptions const& motion = options.motion;
+    scene::ProceduralConfig const& config = options.scene.config;
+    auto const paths = scene::procedural_paths(stage.loaded.built_in ? config.name : std::string());
+    std::string const name = motion.path.value_or(paths.empty() ? "orbit" : std::string(paths.front().name));
+    if (name == "orbit")
+        return scene::orbit(stage.geometry, static_cast<std::uint32_t>(motion.frames.value_or(usual_frames)));
+    if (!find_by_name(paths, name)) {
+        std::vector<std::string> known = names_of(paths);
+        known.emplace_back("orbit");
+        return usage_error(
+            fmt::format("--path {}: {} has no path of this name; {}", name, stage.loaded.text, suggestion(name, known)));
+    }
+    auto path = scene::make_path(config, name);
+    if (!path) return usage_error(path.failure().message);
+    std::size_t const wanted = motion.frames ? static_cast<std::size_t>(*motion.frames) : path->frames.size();
+    if (wanted > path->frames.size())
+        return usage_error(fmt::format("--frames {}: the path {} of {} has {}; give at most as many", wanted, name,
+                                       config.name, path->frames.size()));
+    path->frames.resize(wanted);
+    return *std::move(path);
+}
+
+/// The eye as --eye or --camera has it, while time passes.
+Outcome<Journey> watch(RunOptions const& options, Stage& stage) {
+    constexpr double rate_hz = 30.0;
+    double const clip_s = stage.moves() ? scene::duration_s(stage.loaded.scene.animations[stage.clip.clip]) : 0.0;
+    auto const whole = static_cast<int>(std::clamp(std::round(clip_s * rate_hz), 1.0, 100'000.0));
+    Journey journey{{}, rate_hz, {}};
+    for (int frame = 0; frame < options.motion.frames.value_or(whole); ++frame) {
+        scene::PoseConfig at = stage.clip;
+        at.time_s += frame / rate_hz;
+        scene::pose_at(stage.loaded.scene, at, stage.pose);
+        auto view = choose_view(options.view, stage);
+        if (!view) return std::move(view).failure();
+        journey.views.push_back(view->value);
+        journey.text = view->text;
+    }
+    return journey;
+}
+
+}  // namespace
+
+Outcome<Journey> choose_journey(RunOptions const& options, Stage& stage) {
+    if (!options.motion.path && (options.view.camera || options.view.eye_m)) return watch(options, stage);
+    auto path = path_of(options, stage);
+    if (!path) return std::move(path).failure();
+    Journey journey{{}, path->rate_hz, fmt::format("--path {} --frames {}", path->name, path->frames.size())};
+    for (scene::Camera const& camera : path->frames) {
+        auto view = view_of(camera, options.view, "path '" + path->name + "'");
+        if (!view) return std::move(view).failure();
+        auto ranged = with_range(*view, {}, options.view);
+        if (!ranged) return std::move(ranged).failure();
+        journey.views.push_back(ranged->value);
+        if (journey.views.size() == path->frames.size()) journey.text += ranged->text;
+    }
+    return journey;
+}
+
+Outcome<ChosenLight> choose_light(LightOptions const& options, Stage const& stage, math::View const& view) {
     scene::Light light;
     if (options.sun) {
         light.direction = of_moderate_length(*options.sun);
-        return Described<scene::Light>{light, "--sun " + text_of(*options.sun)};
+        return ChosenLight{light, "--sun " + text_of(*options.sun)};
     }
     if (options.point) {
         light.kind = scene::LightKind::point;
@@ -203,20 +191,22 @@ Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene
             light.range_m = static_cast<float>(*options.point->range_m);
             text += fmt::format(",{}", *options.point->range_m);
         }
-        return Described<scene::Light>{light, text};
+        return ChosenLight{light, text};
     }
-    std::vector<scene::Light> const& lights = scene.lights;
+    std::vector<scene::Light> const& lights = stage.loaded.scene.lights;
+    auto const own = [&](std::size_t index) {
+        auto const at = static_cast<std::uint32_t>(index);
+        return ChosenLight{scene::posed_light(stage.loaded.scene, stage.pose, at), "--light " + name_of(lights, index), at};
+    };
     if (options.name) {
-        if (auto const found = find_by_name(lights, *options.name))
-            return Described<scene::Light>{lights[*found], "--light " + name_of(lights, *found)};
-        return not_found("--light", *options.name, lights, scene.notes);
+        if (auto const found = find_by_name(lights, *options.name)) return own(*found);
+        return not_found("--light", *options.name, lights, stage.loaded.scene.notes);
     }
-    if (!lights.empty()) return Described<scene::Light>{lights.front(), "--light " + name_of(lights, 0)};
-    light = scene::auto_light(geometry, view);
-    if (light.kind == scene::LightKind::point)
-        return Described<scene::Light>{light, "--point " + text_of(light.position_m)};
+    if (!lights.empty()) return own(0);
+    light = scene::auto_light(stage.geometry, view);
+    if (light.kind == scene::LightKind::point) return ChosenLight{light, "--point " + text_of(light.position_m)};
     for (int axis = 0; axis < 3; ++axis) light.direction[axis] = std::round(light.direction[axis] * 1e3) / 1e3;
-    return Described<scene::Light>{light, "--sun " + text_of(light.direction)};
+    return ChosenLight{light, "--sun " + text_of(light.direction)};
 }
 
 }  // namespace gnomon::command

@@ -1,26 +1,19 @@
 #pragma once
-// What a command looks at: the scene, where from, and in which light, each with the words that describe it.
+// What a command looks at: where from, along which path, and in which light, each with the words that describe it.
 
 #include "options.hpp"
+#include "stage.hpp"
 
 #include <gnomon/math/view.hpp>
-#include <gnomon/scene/flatten.hpp>
+#include <gnomon/scene/path.hpp>
 #include <gnomon/scene/scene.hpp>
 
 #include <string>
+#include <vector>
 
 namespace gnomon::command {
 
-struct LoadedScene {
-    scene::Scene scene;
-    std::string text;  ///< "city --triangles 52000", "sponza/scene.glb".
-    bool built_in = false;
-};
-
-/// A built-in scene by name, or a glTF file.
-[[nodiscard]] Outcome<LoadedScene> load_scene(SceneOptions const& options);
-
-/// A view or a light, and the options that give it again.
+/// A value and the options that give it again.
 template <class T>
 struct Described {
     T value;
@@ -28,11 +21,27 @@ struct Described {
 };
 
 /// The view asked for; else the first named view of a built-in scene; else one that shows the geometry.
-[[nodiscard]] Outcome<Described<math::View>> choose_view(ViewOptions const& options, LoadedScene const& loaded,
-                                                         scene::Geometry const& geometry);
+[[nodiscard]] Outcome<Described<math::View>> choose_view(ViewOptions const& options, Stage const& stage);
+
+/// The views of a film.
+struct Journey {
+    std::vector<math::View> views;
+    double rate_hz = 30.0;
+    std::string text;
+};
+
+/// The path asked for; else, with --eye or --camera, that view while time passes; else the scene's first path, or an
+/// orbit round it. Changes the stage's pose, and nothing else of it.
+[[nodiscard]] Outcome<Journey> choose_journey(RunOptions const& options, Stage& stage);
+
+struct ChosenLight {
+    scene::Light value;
+    std::string text;
+    std::uint32_t of_scene = scene::none;  ///< Which of the scene's lights; it may move.
+};
 
 /// The light asked for, else the scene's first, else a sun, or a lamp where no sun reaches.
-[[nodiscard]] Outcome<Described<scene::Light>> choose_light(LightOptions const& options, scene::Scene const& scene,
-                                                           scene::Geometry const& geometry, math::View const& view);
+[[nodiscard]] Outcome<ChosenLight> choose_light(LightOptions const& options, Stage const& stage,
+                                                math::View const& view);
 
 }  // namespace gnomon::command

@@ -56,8 +56,21 @@ Json params_json(std::vector<pipeline::Params::Value> const& params) {
     return object;
 }
 
+/// What went wrong is not known without the truth: then there is no error at all.
+Json error_or_null(Report const& report, pipeline::Measures const& error) {
+    return report.has_truth ? error_json(error) : Json(nullptr);
+}
+
+Json frame_json(Report const& report, FrameRecord const& frame) {
+    return {{"frame", frame.frame},
+            {"time_s", number(frame.time_s)},
+            {"ms", number(frame.ms)},
+            {"error", error_or_null(report, frame.error)},
+            {"counts", counts_json(frame.counts)}};
+}
+
 Json run_json(Report const& report, Run const& run) {
-    return {{"scene", report.scene},
+    Json json = {{"scene", report.scene},
             {"view", report.view},
             {"light", report.light},
             {"backend", run.result.backend},
@@ -65,9 +78,11 @@ Json run_json(Report const& report, Run const& run) {
             {"technique", run.result.technique},
             {"params", params_json(run.result.params)},
             {"ms", ms_json(run.result)},
-            {"error", error_json(run.result.error)},
+            {"error", error_or_null(report, run.result.error)},
             {"counts", counts_json(run.result.counts)},
             {"bytes", counts_json(run.result.bytes)}};
+    for (FrameRecord const& frame : run.frames) json["frames"].push_back(frame_json(report, frame));
+    return json;
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ struct Dispatch {
     Outcome<gnomon::core::Done> operator()(HelpText const& help) const { return print(help.text); }
     Outcome<gnomon::core::Done> operator()(RunOptions options) const {
         options.command = command;
-        return run(options);
+        bool const flies = options.verb == Verb::flythrough || options.motion.path;
+        return flies ? fly(options) : run(options);
     }
     Outcome<gnomon::core::Done> operator()(ScenesOptions const& options) const { return list_or_write_scenes(options); }
     Outcome<gnomon::core::Done> operator()(InfoOptions const&) const { return show_info(); }

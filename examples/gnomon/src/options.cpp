@@ -17,6 +17,7 @@ constexpr RealRange any_metres{-farthest_m, farthest_m, "m"};
 constexpr RealRange positive_metres{1e-9, 1e12, "m"};
 constexpr IntegerRange thread_range{1, 1024};
 constexpr IntegerRange repeat_range{1, 1000};
+constexpr IntegerRange frame_range{1, 100'000};
 constexpr IntegerRange triangle_range{1, 1 << 25};
 constexpr IntegerRange block_range{1, 1 << 20};
 constexpr IntegerRange seed_range{0, std::numeric_limits<std::uint32_t>::max()};
@@ -48,7 +49,13 @@ Outcome<SceneOptions> scene_options(RawOptions const& raw) {
     if (raw.offset && !options.tuned_by) options.tuned_by = "--offset";
     take<double>(raw.offset, options.config.offset_m, error,
                  [](std::string const& t) { return read_real("--offset", t, any_metres); });
+    if (raw.lights && !options.tuned_by) options.tuned_by = "--lights";
+    if (raw.moving && !options.tuned_by) options.tuned_by = "--moving";
+    options.config.lights = raw.lights.value_or("");
+    take<double>(raw.moving, options.config.moving_percent, error,
+                 [](std::string const& t) { return read_real("--moving", t, {0.0, 100.0, "%"}); });
     if (error) return *error;
+    options.file_scene = raw.file_scene;
     return options;
 }
 
@@ -82,6 +89,28 @@ Outcome<ViewOptions> view_options(RawOptions const& raw) {
     if (view.near_m && view.far_m && *view.near_m >= *view.far_m)
         return usage_error(fmt::format("--near {} and --far {}: near must be less than far", *raw.near, *raw.far));
     return view;
+}
+
+Outcome<MotionOptions> motion_options(RawOptions const& raw, Verb verb) {
+    MotionOptions motion;
+    std::optional<core::Failure<Exit>> error;
+    motion.path = raw.path;
+    motion.clip = raw.clip;
+    take<double>(raw.time, motion.time_s, error,
+                 [](std::string const& t) { return read_real("--time", t, {0.0, 1e6, "s"}); });
+    take<int>(raw.frames, motion.frames, error, [](std::string const& t) -> Outcome<int> {
+        auto const count = read_integer("--frames", t, frame_range);
+        if (!count) return count.failure();
+        return static_cast<int>(count.value());
+    });
+    if (error) return *error;
+    bool const flies = verb == Verb::flythrough || raw.path;
+    if (raw.frames && !flies)
+        return usage_error(fmt::format("--frames {}: it goes with --path; add one", *raw.frames));
+    for (auto const& [name, text] : {std::pair{"--eye", &raw.eye}, {"--camera", &raw.camera}})
+        if (raw.path && *text)
+            return usage_error(fmt::format("{} {}: a path decides where the eye is; leave one of them out", name, **text));
+    return motion;
 }
 
 Outcome<PointOption> read_point(std::string const& text) {
@@ -145,12 +174,17 @@ Outcome<Command> run_options(RawOptions const& raw, Verb verb) {
     if (!scene) return std::move(scene).failure();
     auto view = view_options(raw);
     if (!view) return std::move(view).failure();
+    auto motion = motion_options(raw, verb);
+    if (!motion) return std::move(motion).failure();
     auto light = light_options(raw);
     if (!light) return std::move(light).failure();
     if (auto backend = check_backend(raw.backend); !backend) return std::move(backend).failure();
     run.scene = *std::move(scene);
     run.view = *std::move(view);
+    run.motion = *std::move(motion);
+    run.truth = !raw.no_truth;
     run.light = *std::move(light);
+    if (verb == Verb::flythrough && !raw.size) run.view.size_px = math::ivec2(960, 540);
     run.techniques = raw.techniques;
     if (run.techniques.empty())
         run.techniques = verb == Verb::compare ? std::vector<std::string>{"shadow-map", "ray"}
@@ -161,7 +195,9 @@ Outcome<Command> run_options(RawOptions const& raw, Verb verb) {
         run.params.push_back(*std::move(param));
     }
     run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
-    run.repeats = verb == Verb::compare ? 3 : 1;
+    run.repeats = verb == Verb::compare && !raw.path ? 3 : 1;
+    if (verb == Verb::compare && !run.truth)
+        return usage_error("--no-truth: compare measures errors, which need the truth; leave it out, or use gnomon render");
     std::optional<core::Failure<Exit>> error;
     take<std::int64_t>(raw.threads, run.threads, error,
                        [](std::string const& t) { return read_integer("--threads", t, thread_range); });
@@ -199,6 +235,7 @@ Outcome<Command> parse_command_line(int argc, char const* const* argv) {
         case RawVerb::help: return Command{HelpText{raw->text}};
         case RawVerb::render: return run_options(raw->options, Verb::render);
         case RawVerb::compare: return run_options(raw->options, Verb::compare);
+        case RawVerb::flythrough: return run_options(raw->options, Verb::flythrough);
         case RawVerb::scenes: return scenes_options(raw->options);
         case RawVerb::info: return Command{InfoOptions{}};
     }

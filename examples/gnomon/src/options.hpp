@@ -16,6 +16,15 @@ namespace gnomon::command {
 struct SceneOptions {
     scene::ProceduralConfig config;       ///< `name` is the built-in scene or the path, as given.
     std::optional<std::string> tuned_by;  ///< The first option given that only a built-in scene can take.
+    std::optional<std::string> file_scene;  ///< One of several scenes of a file.
+};
+
+/// How time passes.
+struct MotionOptions {
+    std::optional<std::string> path;   ///< Along which the eye flies.
+    std::optional<int> frames;         ///< Of the path, from its first.
+    double time_s = 0.0;               ///< Of the animations, at the first frame.
+    std::optional<std::string> clip;   ///< The animation that plays.
 };
 
 struct ViewOptions {
@@ -49,17 +58,20 @@ struct ParamOption {
 enum class Verb {
     render,   ///< Pictures.
     compare,  ///< Pictures, a page, errors beside times.
+    flythrough,  ///< A film, a page, a table of every frame.
 };
 
 struct RunOptions {
     Verb verb = Verb::render;
     SceneOptions scene;
     ViewOptions view;
+    MotionOptions motion;
     LightOptions light;
     std::vector<std::string> techniques;
     std::vector<ParamOption> params;
     int threads = 1;
     int repeats = 1;
+    bool truth = true;
     std::optional<std::string> json;  ///< "-" is standard output.
     std::optional<std::string> out;   ///< A folder.
     std::string command;              ///< As typed.

@@ -125,32 +125,53 @@ Outcome<core::Done> check_file(std::string const& option, std::string const& pat
     return core::Done{};
 }
 
-Outcome<core::Done> write_folder(std::string const& path, std::vector<OutputFile> const& files) {
-    fs::path const target = place(path);
+Outcome<FolderWriter> FolderWriter::begin(std::string const& path) {
+    std::error_code error;
+    fs::create_directory(temporary_beside(place(path), "new"), error);
+    if (error) return cannot_write(path, error.message());
+    return FolderWriter(path);
+}
+
+FolderWriter::FolderWriter(FolderWriter&& other) noexcept
+    : path_(std::exchange(other.path_, {})), names_(std::move(other.names_)) {}
+
+FolderWriter::~FolderWriter() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(temporary_beside(place(path_), "new"), ignored);
+}
+
+Outcome<core::Done> FolderWriter::add(std::string const& name, Bytes const& bytes) {
+    std::string why;
+    if (!write_bytes(temporary_beside(place(path_), "new") / name, bytes, why))
+        return cannot_write(path_ + '/' + name, why);
+    names_.push_back(name);
+    return core::Done{};
+}
+
+Outcome<core::Done> FolderWriter::commit() {
+    fs::path const target = place(path_);
     fs::path const fresh = temporary_beside(target, "new");
     fs::path const old = temporary_beside(target, "old");
     std::error_code error;
     std::error_code ignored;
-    std::string why;
-    fs::create_directory(fresh, error);
-    if (error) return cannot_write(path, error.message());
-    for (OutputFile const& file : files)
-        if (!write_bytes(fresh / file.name, file.bytes, why)) {
-            fs::remove_all(fresh, ignored);
-            return cannot_write(path + '/' + file.name, why);
-        }
     bool const replaces = fs::exists(target, ignored);
     if (replaces) fs::rename(target, old, error);
     if (!error) {
         fs::rename(fresh, target, error);
         if (error && replaces) fs::rename(old, target, ignored);
     }
-    if (error) {
-        fs::remove_all(fresh, ignored);
-        return cannot_write(path, error.message());
-    }
+    if (error) return cannot_write(path_, error.message());
     fs::remove_all(old, ignored);
+    path_.clear();
     return core::Done{};
+}
+
+Outcome<core::Done> write_folder(std::string const& path, std::vector<OutputFile> const& files) {
+    auto folder = FolderWriter::begin(path);
+    if (!folder) return std::move(folder).failure();
+    for (OutputFile const& file : files)
+        if (auto added = folder->add(file.name, file.bytes); !added) return added;
+    return folder->commit();
 }
 
 Outcome<core::Done> write_file(std::string const& path, Bytes const& bytes) {

@@ -1,20 +1,12 @@
 #pragma once
 // index.html: one file with everything in it, for someone who has never heard of the project.
 
-#include "image_io.hpp"
-#include "report.hpp"
+#include "page_parts.hpp"
 
 #include <string>
 #include <vector>
 
 namespace gnomon::command {
-
-/// PNG bytes of one run, made once for the folder and the page.
-struct RunPictures {
-    Bytes lit;
-    Bytes overlay;
-    Bytes marks;  ///< The overlay for the page, where pictures are small: wrong pixels drawn larger.
-};
 
 struct ReportPictures {
     Bytes exact;

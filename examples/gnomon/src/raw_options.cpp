@@ -12,7 +12,7 @@ namespace gnomon::command {
 
 namespace {
 
-std::vector<std::string> const verbs = {"render", "compare", "scenes", "info"};
+std::vector<std::string> const verbs = {"render", "compare", "flythrough", "scenes", "info"};
 
 void add_scene(CLI::App& app, RawOptions& raw, bool required) {
     app.add_option("scene", raw.scene, "a built-in scene (`gnomon scenes` lists them) or a .gltf/.glb file")
@@ -24,7 +24,11 @@ void add_scene(CLI::App& app, RawOptions& raw, bool required) {
     add("--triangles", raw.triangles, "budget; the nearest size the scene comes in", "N");
     add("--blocks", raw.blocks, "city: copies of the whole city, the first in the middle", "N");
     add("--offset", raw.offset, "sheet: moved by this many metres along x, y and z", "M");
+    add("--lights", raw.lights, "a light set of the scene, or how many lights", "NAME|N");
+    add("--moving", raw.moving, "town: this share of the props moves, percent", "P");
     add("--seed", raw.seed, "random seed; left out: the scene's fixed one", "N");
+    app.add_option("--file-scene", raw.file_scene, "one of several scenes of a glTF file; left out: its default")
+        ->type_name("NAME");
 }
 
 void add_view_and_light(CLI::App& app, RawOptions& raw) {
@@ -37,7 +41,14 @@ void add_view_and_light(CLI::App& app, RawOptions& raw) {
     view("--camera,--view", raw.camera, "a camera of the file, or a named view of a built-in scene", "NAME");
     view("--near", raw.near, "near plane, metres", "M");
     view("--far", raw.far, "far plane, metres; left out: infinitely far", "M");
-    view("--size", raw.size, "picture size in pixels; 1024x1024", "WxH");
+    view("--size", raw.size, "picture size in pixels; 1024x1024 (flythrough: 960x540)", "WxH");
+    auto const motion = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type) {
+        app.add_option(name, value, text)->type_name(type)->group("Motion");
+    };
+    motion("--path", raw.path, "fly along one of the scene's paths, or `orbit`", "NAME");
+    motion("--frames", raw.frames, "how many frames of the path; left out: all of them", "N");
+    motion("--time", raw.time, "seconds into the animations; on a path, of its first frame; 0", "S");
+    motion("--clip", raw.clip, "one animation of the file; left out: its first", "NAME");
     auto const light = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type) {
         app.add_option(name, value, text)->type_name(type)->group("Light (left out: the scene's first, else a sun)");
     };
@@ -48,7 +59,7 @@ void add_view_and_light(CLI::App& app, RawOptions& raw) {
 
 void add_run(CLI::App& app, RawOptions& raw) {
     std::string const runs = "Runs";
-    app.add_option("--techniques,--technique", raw.techniques, "which to run; shadow-map,ray (render: shadow-map)")
+    app.add_option("--techniques,--technique", raw.techniques, "which to run; shadow-map; compare: shadow-map,ray")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("A,B")
@@ -59,10 +70,12 @@ void add_run(CLI::App& app, RawOptions& raw) {
         ->group(runs);
     auto const add = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type,
                          char const* group) { app.add_option(name, value, text)->type_name(type)->group(group); };
+    app.add_flag("--no-truth", raw.no_truth, "pictures and times only: trace no exact shadows, so know no errors")
+        ->group(runs);
     add("--backend", raw.backend, "cpu", "NAME", "Runs");
     add("--threads", raw.threads, "left out: as many as the machine has", "N", "Runs");
-    add("--repeats", raw.repeats, "timed runs of each; the median counts; 3 (render: 1)", "N", "Runs");
-    add("--out", raw.out, "folder to write; gnomon-compare (render: gnomon-render)", "DIR", "Output");
+    add("--repeats", raw.repeats, "timed runs of each; the median counts; 1 (compare: 3)", "N", "Runs");
+    add("--out", raw.out, "folder to write; left out: gnomon- and the verb", "DIR", "Output");
     add("--json", raw.json, "also write results.json here; - for standard output", "FILE", "Output");
 }
 
@@ -112,9 +125,10 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     RawCommand raw;
     auto* render = app.add_subcommand("render", "Draw pictures of a scene with shadows");
     auto* compare = app.add_subcommand("compare", "Measure techniques against exact shadows: a page, pictures, JSON");
+    auto* flythrough = app.add_subcommand("flythrough", "Fly along a path: a film, a table of every frame, pictures");
     auto* scenes = app.add_subcommand("scenes", "List the built-in scenes, or write one as glTF");
     auto* info = app.add_subcommand("info", "Version, machine, backends, techniques and their parameters");
-    for (CLI::App* verb : {render, compare}) {
+    for (CLI::App* verb : {render, compare, flythrough}) {
         add_scene(*verb, raw.options, true);
         add_view_and_light(*verb, raw.options);
         add_run(*verb, raw.options);
@@ -125,7 +139,7 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     if (argc > 1 && !first.starts_with("-") && std::find(verbs.begin(), verbs.end(), first) == verbs.end())
         return unknown_verb(first);
     if (argc <= 1)
-        return usage_error("gnomon needs a verb: render, compare, scenes or info; `gnomon --help` says more");
+        return usage_error("gnomon needs a verb: render, compare, flythrough, scenes or info; `gnomon --help` says more");
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& error) {
@@ -139,11 +153,12 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
         raw.text = out.str();
         return raw;
     }
-    raw.verb = render->parsed()    ? RawVerb::render
-               : compare->parsed() ? RawVerb::compare
-               : scenes->parsed()  ? RawVerb::scenes
-               : info->parsed()    ? RawVerb::info
-                                   : RawVerb::help;
+    raw.verb = render->parsed()       ? RawVerb::render
+               : compare->parsed()    ? RawVerb::compare
+               : flythrough->parsed() ? RawVerb::flythrough
+               : scenes->parsed()     ? RawVerb::scenes
+               : info->parsed()       ? RawVerb::info
+                                      : RawVerb::help;
     if (raw.verb == RawVerb::help) raw.text = app.help();
     return raw;
 }

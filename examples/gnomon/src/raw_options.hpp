@@ -11,8 +11,10 @@ namespace gnomon::command {
 
 struct RawOptions {
     std::string scene;
-    std::optional<std::string> triangles, blocks, offset, seed;
+    std::optional<std::string> triangles, blocks, offset, seed, lights, moving;
     std::optional<std::string> eye, look, fov, camera, near, far;
+    std::optional<std::string> path, frames, time, clip, file_scene;
+    bool no_truth = false;
     std::optional<std::string> sun, point, light;
     std::vector<std::string> techniques, params;
     std::optional<std::string> size, backend, threads, repeats, json, out, write;
@@ -22,6 +24,7 @@ enum class RawVerb {
     help,  ///< `text` is what was asked for.
     render,
     compare,
+    flythrough,
     scenes,
     info,
 };

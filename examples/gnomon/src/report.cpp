@@ -4,6 +4,8 @@
 
 #include <sys/utsname.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <thread>
@@ -58,6 +60,71 @@ Machine this_machine() {
     unsigned const cores = std::thread::hardware_concurrency();
     return {cpu_name(),       cores == 0 ? 1 : static_cast<int>(cores), simd_names(), system_name(), compiler_name(),
             GNOMON_BUILD_TYPE};
+}
+
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    std::size_t const middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+void add(pipeline::Measures& sum, pipeline::Measures const& frame) {
+    auto const samples = static_cast<double>(frame.samples);
+    auto const wrong = static_cast<double>(frame.wrong);
+    sum.samples += frame.samples;
+    sum.wrong += frame.wrong;
+    sum.false_lit += frame.false_lit;
+    sum.false_shadow += frame.false_shadow;
+    sum.acne += frame.acne;
+    sum.detachment += frame.detachment;
+    sum.edge_px.mean += frame.wrong == 0 ? 0.0 : frame.edge_px.mean * wrong;
+    sum.edge_px.p99 = std::max(sum.edge_px.p99, frame.edge_px.p99);
+    sum.edge_px.max = std::max(sum.edge_px.max, frame.edge_px.max);
+    sum.visibility_error_mean += frame.visibility_error_mean * samples;
+    sum.visibility_error_p99 = std::max(sum.visibility_error_p99, frame.visibility_error_p99);
+    sum.radiance_error += frame.radiance_error * frame.radiance_error * samples;
+}
+
+void add(std::vector<pipeline::Count>& sums, std::vector<pipeline::Count> const& counts) {
+    for (pipeline::Count const& count : counts) {
+        auto const same = [&](pipeline::Count const& sum) { return sum.name == count.name; };
+        auto const found = std::find_if(sums.begin(), sums.end(), same);
+        if (found == sums.end())
+            sums.push_back(count);
+        else
+            found->value += count.value;
+    }
+}
+
+}  // namespace
+
+pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::RunReport const& first) {
+    pipeline::RunReport total;
+    total.technique = first.technique;
+    total.backend = first.backend;
+    total.params = first.params;
+    total.bytes = first.bytes;
+    total.measured = first.measured;
+    std::vector<double> ms;
+    for (FrameRecord const& frame : frames) {
+        add(total.error, frame.error);
+        add(total.counts, frame.counts);
+        ms.push_back(frame.ms);
+    }
+    total.ms = {median(ms), *std::min_element(ms.begin(), ms.end()), *std::max_element(ms.begin(), ms.end())};
+    for (std::size_t s = 0; s < frames.front().stages.size(); ++s) {
+        std::vector<double> times;
+        for (FrameRecord const& frame : frames) times.push_back(frame.stages[s].ms);
+        total.stages.push_back({frames.front().stages[s].name, median(times)});
+    }
+    auto const samples = static_cast<double>(std::max<std::uint64_t>(total.error.samples, 1));
+    total.error.wrong_fraction = static_cast<double>(total.error.wrong) / samples;
+    total.error.visibility_error_mean /= samples;
+    total.error.radiance_error = std::sqrt(total.error.radiance_error / samples);
+    total.error.edge_px.mean /= static_cast<double>(std::max<std::uint64_t>(total.error.wrong, 1));
+    return total;
 }
 
 std::optional<double> ray_ms(Report const& report) {

@@ -23,11 +23,22 @@ struct Machine {
 
 [[nodiscard]] Machine this_machine();
 
+/// One run on one frame of a path.
+struct FrameRecord {
+    std::uint32_t frame = 0;  ///< From 0.
+    double time_s = 0.0;      ///< Of the animations.
+    double ms = 0.0;          ///< Median of the repeats.
+    std::vector<pipeline::StageTime> stages;
+    pipeline::Measures error;
+    std::vector<pipeline::Count> counts;
+};
+
 /// One run with the names that people and files call it by.
 struct Run {
     std::string label;  ///< "shadow-map resolution=512": the technique and what the user set.
     std::string slug;   ///< The same as a file name without extension; unique in its report.
-    pipeline::RunReport result;
+    pipeline::RunReport result;       ///< Of a path: ms over its frames, errors and counts summed. See `total_of`.
+    std::vector<FrameRecord> frames;  ///< Of a path; else empty.
 };
 
 /// One line of the page's facts.
@@ -44,15 +55,23 @@ struct Report {
     std::vector<Fact> facts;
     math::ivec2 size_px{0, 0};
     std::uint64_t triangles = 0;
-    std::uint64_t samples = 0;
+    std::uint64_t samples = 0;  ///< Of all frames.
     std::uint64_t truly_lit = 0;
+    std::uint64_t frames = 1;
+    bool has_truth = true;
     int threads = 1;
     int repeats = 1;
-    double truth_ms = 0.0;  ///< What tracing the truth took: the same work as a `ray` run.
+    double truth_ms = 0.0;  ///< What tracing the truth took, for one frame: the same work as a `ray` run.
     Machine machine;
     std::vector<Run> runs;
     pipeline::Image exact;
 };
+
+/// A path as one run: median, least and greatest time of its frames, sums of their errors and counts. Means weigh each
+/// frame by its samples; a p99 or maximum is the greatest of any frame.
+///
+/// expects: all frames are of one run, `first` being the report of any of them; `frames` is not empty.
+[[nodiscard]] pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::RunReport const& first);
 
 /// Milliseconds of exact rays, the peer that every time is shown beside: the `ray` run's, or else the truth's own.
 [[nodiscard]] std::optional<double> ray_ms(Report const& report);

@@ -44,23 +44,51 @@ std::string aligned(std::vector<std::vector<std::string>> const& rows, TableLook
     return text;
 }
 
-std::string table_text(Report const& report, bool styled) {
+namespace {
+
+/// What was looked at, in two lines.
+std::string heading(Report const& report) {
     double const lit =
         report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
-    std::string text =
-        fmt::format("{}: {} triangles, {} samples in {}x{} px, {:.1f} % truly lit, {} threads\n{}   {}\n\n",
-                    report.scene, grouped(report.triangles), grouped(report.samples), report.size_px.x,
-                    report.size_px.y, lit * 100.0, report.threads, report.view, report.light);
-    std::vector<std::vector<std::string>> rows = {
-        {"run", "wrong %", "false-lit", "false-shadow", "edge px mean", "max", "ms", "speed / ray"}};
+    std::string const frames = report.frames > 1 ? fmt::format("{} frames, ", grouped(report.frames)) : "";
+    std::string const truth = report.has_truth ? fmt::format(", {:.1f} % truly lit", lit * 100.0) : "";
+    return fmt::format("{}: {} triangles, {}{} samples in {}x{} px{}, {} threads\n{}   {}\n\n", report.scene,
+                       grouped(report.triangles), frames, grouped(report.samples), report.size_px.x, report.size_px.y,
+                       truth, report.threads, report.view, report.light);
+}
+
+/// The frame with the most wrong samples.
+FrameRecord const& worst_of(std::vector<FrameRecord> const& frames) {
+    return *std::max_element(frames.begin(), frames.end(), [](FrameRecord const& a, FrameRecord const& b) {
+        return a.error.wrong < b.error.wrong;
+    });
+}
+
+}  // namespace
+
+std::string table_text(Report const& report, bool styled) {
+    bool const flies = report.frames > 1;
+    std::vector<std::string> head = {"run"};
+    if (report.has_truth) head.insert(head.end(), {"wrong %", "false-lit", "false-shadow", "edge px mean", "max"});
+    if (report.has_truth && flies) head.emplace_back("worst frame");
+    head.emplace_back(flies ? "ms median" : "ms");
+    if (flies) head.insert(head.end(), {"min", "max"});
+    if (ray_ms(report)) head.emplace_back("speed / ray");
+    std::vector<std::vector<std::string>> rows = {head};
     for (Run const& run : report.runs) {
         pipeline::Measures const& error = run.result.error;
-        auto const speed = speed_over_ray(report, run);
-        rows.push_back({run.label, percent(error.wrong_fraction), grouped(error.false_lit), grouped(error.false_shadow),
-                        figures(error.edge_px.mean), figures(error.edge_px.max), figures(run.result.ms.median),
-                        speed ? figures(*speed) : "-"});
+        std::vector<std::string> row = {run.label};
+        if (report.has_truth)
+            row.insert(row.end(), {percent(error.wrong_fraction), grouped(error.false_lit), grouped(error.false_shadow),
+                                   figures(error.edge_px.mean), figures(error.edge_px.max)});
+        if (report.has_truth && flies) row.push_back(std::to_string(worst_of(run.frames).frame));
+        row.push_back(figures(run.result.ms.median));
+        if (flies) row.insert(row.end(), {figures(run.result.ms.min), figures(run.result.ms.max)});
+        if (auto const speed = speed_over_ray(report, run)) row.push_back(figures(*speed));
+        else if (ray_ms(report)) row.emplace_back("-");
+        rows.push_back(std::move(row));
     }
-    return text + aligned(rows, {.bold_head = styled});
+    return heading(report) + aligned(rows, {.bold_head = styled});
 }
 
 }  // namespace gnomon::command

@@ -5,8 +5,10 @@
 
 namespace gnomon::command {
 
-/// `render` and `compare`.
+/// `render` and `compare` of one view.
 [[nodiscard]] Outcome<core::Done> run(RunOptions const& options);
+/// `flythrough`; `render` and `compare` along a path.
+[[nodiscard]] Outcome<core::Done> fly(RunOptions const& options);
 [[nodiscard]] Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options);
 [[nodiscard]] Outcome<core::Done> show_info();
 

@@ -38,7 +38,8 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     RunReport report;
     report.technique = std::string(request.technique->name);
     report.params = request.params.values;
-    Workspace workspace;
+    Workspace own;
+    Workspace& workspace = request.workspace != nullptr ? *request.workspace : own;
     std::vector<std::vector<StageTime>> repeats;
     TechniqueOutput output;
     for (int i = 0; i < std::max(config.repeats, 1); ++i) {
@@ -47,17 +48,18 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
         output = std::move(result).value();
         repeats.push_back(output.stages);
     }
-    if (request.technique->examine != nullptr)
-        request.technique->examine(frame, request.params, workspace, executor, output);
     summarize(repeats, report);
-    report.error = measure(frame, output, executor);
-    report.error.radiance_error = radiance_error(frame, shading, output.visibility);
     report.counts = output.counts;
     report.bytes = output.bytes;
-    if (config.images) {
-        report.lit = picture(frame, shading, output.visibility);
-        report.overlay = error_overlay(frame, shading, output.visibility);
-    }
+    if (config.images) report.lit = picture(frame, shading, output.visibility);
+    report.measured = has_truth(frame);
+    report.error.samples = frame.samples.size();
+    if (!report.measured) return report;
+    if (request.technique->examine != nullptr)
+        request.technique->examine(frame, request.params, workspace, executor, output);
+    report.error = measure(frame, output, executor);
+    report.error.radiance_error = radiance_error(frame, shading, output.visibility);
+    if (config.images) report.overlay = error_overlay(frame, shading, output.visibility);
     return report;
 }
 
@@ -74,7 +76,8 @@ Result<Comparison> compare(Frame const& frame, std::span<RunRequest const> reque
     for (std::uint8_t const lit : frame.lit) comparison.truly_lit += lit;
     progress(0, "shading");
     Shading const shading = shade(frame, config.shading, executor);
-    if (config.images) comparison.exact = picture(frame, shading, exact_visibility(frame));
+    comparison.exposure = shading.exposure;
+    if (config.images && has_truth(frame)) comparison.exact = picture(frame, shading, exact_visibility(frame));
     for (std::size_t i = 0; i < requests.size(); ++i) {
         GNOMON_EXPECT(requests[i].technique != nullptr);
         progress(static_cast<int>(i) + 1, requests[i].technique->name);

@@ -132,26 +132,45 @@ std::vector<std::uint32_t> draw_ids(Frame& frame, core::ExecutorRef executor) {
     return ids;
 }
 
-/// The truth's alpha tables, if any material has holes.
-void collect_alpha(Frame const& frame, FrameState& state) {
-    for (scene::Material const& material : frame.scene->materials) {
-        AlphaRule const rule = alpha_rule(*frame.scene, material);
+/// Which triangles have holes, and where.
+void collect_alpha(scene::Scene const& scene, scene::Geometry const& geometry, Surfaces& surfaces) {
+    for (scene::Material const& material : scene.materials) {
+        AlphaRule const rule = alpha_rule(scene, material);
         trace::AlphaMaterial alpha;
         alpha.is_masked = rule.tested || rule.nothing;
         alpha.factor = material.base_color.w;
         alpha.cutoff = static_cast<float>(rule.cutoff);
         if (rule.tested) {
-            scene::Image const& image = *base_image(*frame.scene, material);
-            scene::Texture const& texture = *base_texture(*frame.scene, material);
-            alpha.texture = static_cast<std::uint32_t>(state.textures.size());
-            state.textures.push_back({image.rgba, image.size_px, texture.wrap_u, texture.wrap_v});
+            scene::Image const& image = *base_image(scene, material);
+            scene::Texture const& texture = *base_texture(scene, material);
+            alpha.texture = static_cast<std::uint32_t>(surfaces.textures.size());
+            surfaces.textures.push_back({image.rgba, image.size_px, texture.wrap_u, texture.wrap_v});
         }
-        state.masked = state.masked || alpha.is_masked;
-        state.materials.push_back(alpha);
+        surfaces.masked = surfaces.masked || alpha.is_masked;
+        surfaces.materials.push_back(alpha);
     }
-    if (!state.masked || frame.geometry->uv.empty()) return;
-    state.corner_uv.reserve(frame.geometry->indices.size());
-    for (std::uint32_t const i : frame.geometry->indices) state.corner_uv.push_back(frame.geometry->uv[i]);
+    if (!surfaces.masked || geometry.uv.empty()) return;
+    surfaces.corner_uv.reserve(geometry.indices.size());
+    for (std::uint32_t const i : geometry.indices) surfaces.corner_uv.push_back(geometry.uv[i]);
+}
+
+std::shared_ptr<Surfaces> make_surfaces(scene::Scene const& scene, scene::Geometry const& geometry) {
+    auto surfaces = std::make_shared<Surfaces>();
+    surfaces->corners.reserve(geometry.indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
+        surfaces->corners.emplace_back(geometry.indices[i], geometry.indices[i + 1], geometry.indices[i + 2]);
+    collect_alpha(scene, geometry, *surfaces);
+    return surfaces;
+}
+
+/// Those of the frame before if they will do, else new ones.
+std::shared_ptr<Surfaces const> surfaces_for(Frame const& frame, Shot const& shot, core::ExecutorRef executor) {
+    Frame const* const before = shot.before;
+    bool const same = before != nullptr && before->scene == frame.scene && before->geometry == frame.geometry;
+    if (same && (!shot.truth || !before->state->surfaces->bvh.nodes.empty())) return before->state->surfaces;
+    std::shared_ptr<Surfaces> surfaces = make_surfaces(*frame.scene, *frame.geometry);
+    if (shot.truth) surfaces->bvh = trace::build_bvh({frame.geometry->positions, surfaces->corners}, executor);
+    return surfaces;
 }
 
 }  // namespace
@@ -173,39 +192,44 @@ std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state,
     return lit;
 }
 
-Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry, math::View const& view,
-                         Light const& light, core::ExecutorRef executor) {
-    if (auto ok = validate_frame(geometry, view, light); !ok) return std::move(ok).failure();
+Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry, Shot const& shot,
+                         core::ExecutorRef executor) {
+    Light const& light = shot.light;
+    if (auto ok = validate_frame(geometry, shot.view, light); !ok) return std::move(ok).failure();
     Frame frame;
     auto state = std::make_shared<FrameState>();
     frame.scene = &scene;
     frame.geometry = &geometry;
-    frame.view = view;
+    frame.view = shot.view;
     frame.light = light;
     frame.bounds = geometry.bounds;
     frame.light_position = math::to_float(light.position_m - geometry.origin_m);
     frame.to_light = float_direction(-light.direction);
-    state->eye = sample::eye_of(view, geometry.origin_m);
+    state->eye = sample::eye_of(shot.view, geometry.origin_m);
     state->light = light.kind == LightKind::directional ? predicates::Target::direction(frame.to_light)
                                                         : predicates::Target::point(frame.light_position);
-    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
-        state->corners.emplace_back(geometry.indices[i], geometry.indices[i + 1], geometry.indices[i + 2]);
-
     Stopwatch watch;
     std::vector<std::uint32_t> const ids = draw_ids(frame, executor);
     frame.stages.push_back({"camera_pass", watch.lap_ms()});
+    state->surfaces = surfaces_for(frame, shot, executor);
+    double const build_ms = watch.lap_ms();
     std::vector<sample::ViewSample> image(ids.size());
-    sample::make_view_samples({view, geometry.origin_m, triangles_of(frame, *state)}, ids,
+    sample::make_view_samples({shot.view, geometry.origin_m, triangles_of(frame, *state)}, ids,
                               std::span<sample::ViewSample>(image), executor);
     gather(frame, *state, image, executor);
     frame.stages.push_back({"samples", watch.lap_ms()});
-    collect_alpha(frame, *state);
-    state->bvh = trace::build_bvh(triangles_of(frame, *state), executor);
-    frame.stages.push_back({"truth_build", watch.lap_ms()});
-    frame.lit = trace_lit(frame, *state, state->bvh, executor);
-    frame.stages.push_back({"truth_trace", watch.lap_ms()});
+    if (shot.truth) {
+        frame.lit = trace_lit(frame, *state, state->surfaces->bvh, executor);
+        frame.stages.push_back({"truth_build", build_ms});
+        frame.stages.push_back({"truth_trace", watch.lap_ms()});
+    }
     frame.state = std::move(state);
     return frame;
+}
+
+Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry, math::View const& view,
+                         Light const& light, core::ExecutorRef executor) {
+    return make_frame(scene, geometry, Shot{view, light}, executor);
 }
 
 }  // namespace gnomon::pipeline

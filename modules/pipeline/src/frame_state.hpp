@@ -10,32 +10,39 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace gnomon::pipeline {
 
-struct FrameState {
+/// What depends on scene and geometry only, and so may serve many frames.
+struct Surfaces {
     std::vector<math::uvec3> corners;  ///< The geometry's indices, three by three.
-    std::vector<sample::ViewSample> samples;
-    predicates::Target eye;
-    predicates::Target light;
-    trace::Bvh bvh;
-    bool masked = false;  ///< Some triangles have holes; otherwise the lists below are empty.
+    trace::Bvh bvh;                    ///< Empty where no truth was asked for yet.
+    bool masked = false;               ///< Some triangles have holes; otherwise the lists below are empty.
     std::vector<trace::AlphaMaterial> materials;
     std::vector<math::AlphaTexture> textures;
     std::vector<math::vec2> corner_uv;
 };
 
+struct FrameState {
+    std::shared_ptr<Surfaces const> surfaces;
+    std::vector<sample::ViewSample> samples;
+    predicates::Target eye;
+    predicates::Target light;
+};
+
 [[nodiscard]] inline predicates::TriangleList triangles_of(Frame const& frame, FrameState const& state) noexcept {
-    return {frame.geometry->positions, state.corners};
+    return {frame.geometry->positions, state.surfaces->corners};
 }
 
 /// Calls `use` with the opacity of the frame's triangles.
 template <class Use>
 auto with_opacity(Frame const& frame, FrameState const& state, Use&& use) {
-    if (!state.masked) return use(trace::Solid{});
-    return use(trace::AlphaTest{frame.geometry->triangle_material, state.materials, state.textures, state.corner_uv});
+    Surfaces const& s = *state.surfaces;
+    if (!s.masked) return use(trace::Solid{});
+    return use(trace::AlphaTest{frame.geometry->triangle_material, s.materials, s.textures, s.corner_uv});
 }
 
 /// 1 for each sample that the light reaches in `bvh`, 0 for the others.

@@ -31,7 +31,7 @@ bool is_blocked_within(Frame const& frame, FrameState const& state, std::size_t 
     math::vec3 const& start = frame.samples.position[i];
     predicates::Target const end = predicates::Target::point(start + toward_light(frame, start) * reach_m);
     return with_opacity(frame, state, [&](auto const& opacity) {
-        return trace::is_blocked(state.bvh, {start, end}, core::TriangleId(frame.samples.triangle[i]), opacity);
+        return trace::is_blocked(state.surfaces->bvh, {start, end}, core::TriangleId(frame.samples.triangle[i]), opacity);
     });
 }
 

@@ -56,7 +56,7 @@ struct Frame {
     math::Aabb bounds;                ///< Of every finite vertex, work space.
     Samples samples;
     std::vector<std::uint32_t> sample_of_pixel;  ///< `no_sample` for the background.
-    std::vector<std::uint8_t> lit;               ///< The truth: 1 lit, 0 in shadow; one per sample.
+    std::vector<std::uint8_t> lit;  ///< The truth: 1 lit, 0 in shadow; one per sample. Empty where it was not asked for.
     std::vector<std::uint8_t> reached;  ///< 0: beyond the light's range or cone, so not lit whatever stands between.
     std::uint64_t bad_triangles = 0;    ///< Left out: a vertex is not finite, or an index out of range.
     std::uint64_t triangles_drawn = 0;  ///< Of the camera pass.
@@ -64,12 +64,27 @@ struct Frame {
     std::vector<StageTime> stages;  ///< camera_pass, samples, truth_build, truth_trace.
 };
 
+/// One picture to take.
+struct Shot {
+    math::View view;
+    Light light;
+    bool truth = true;  ///< Off: no exact shadows, so no errors; a fraction of the time.
+    /// A frame of the same scene and geometry, neither changed since: its hierarchy serves again. May be null.
+    Frame const* before = nullptr;
+};
+
 /// Draws the camera pass, places the view samples and traces the truth.
 ///
 /// expects: `geometry` is `flatten`ed from `scene`.
 /// returns: a frame with no samples when the view sees nothing of the scene; an error for a bad light or view, or for a
 ///          geometry without triangles.
+[[nodiscard]] Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry, Shot const& shot,
+                                       core::ExecutorRef executor);
 [[nodiscard]] Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry,
                                        math::View const& view, Light const& light, core::ExecutorRef executor);
+
+[[nodiscard]] inline bool has_truth(Frame const& frame) noexcept {
+    return frame.lit.size() == frame.samples.size();
+}
 
 }  // namespace gnomon::pipeline

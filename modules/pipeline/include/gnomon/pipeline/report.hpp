@@ -29,16 +29,18 @@ struct RunReport {
     std::vector<Params::Value> params;
     Milliseconds ms;
     std::vector<StageTime> stages;  ///< Median over the repeats, stage by stage.
+    bool measured = true;  ///< Off: the frame has no truth, and of `error` only `samples` says anything.
     Measures error;
     std::vector<Count> counts;
     std::vector<Count> bytes;
     Image lit;      ///< The picture with this technique's shadows.
-    Image overlay;  ///< Wrong samples in two colours.
+    Image overlay;  ///< Wrong samples in two colours; empty without truth.
 };
 
 struct RunRequest {
     Technique const* technique = nullptr;
     Params params;
+    Workspace* workspace = nullptr;  ///< Kept by the caller from frame to frame; null: one for the call.
 };
 
 /// Called between runs, from the calling thread.
@@ -58,7 +60,8 @@ struct CompareConfig {
 
 struct Comparison {
     std::vector<RunReport> runs;  ///< In the order of the requests.
-    Image exact;                  ///< The picture with the true shadows, if images are asked for.
+    Image exact;                  ///< The picture with the true shadows, if images are asked for and there is truth.
+    float exposure = 1.0F;        ///< Of the pictures; give it to the next frame of a film.
     std::uint64_t samples = 0;
     std::uint64_t truly_lit = 0;
 };
