@@ -375,3 +375,54 @@ TEST_CASE("pictures show false-lit and false-shadow samples in their colours", "
         CHECK(blue == (frame.lit[i] != 0));
     }
 }
+
+TEST_CASE("a frame after another takes its hierarchy over and finds the same truth", "[pipeline][frame]") {
+    core::SerialExecutor const serial;
+    Stage const& stage = city();
+    auto shot = [&](int size, bool truth, pipeline::Frame const* before) {
+        return pipeline::make_frame(stage.scene, stage.geometry,
+                                    pipeline::Shot{street_view(size), test_sun(), truth, before}, serial)
+            .value();
+    };
+    pipeline::Frame const whole = shot(96, true, nullptr);
+    pipeline::Frame const drawn = shot(64, false, nullptr);
+    CHECK(shot(96, true, &whole).lit == whole.lit);
+    CHECK(shot(96, true, &drawn).lit == whole.lit);  // one that has no hierarchy to give
+    pipeline::Frame const no_truth = shot(96, false, &whole);
+    CHECK(no_truth.samples.position == whole.samples.position);
+    CHECK_FALSE(pipeline::has_truth(no_truth));
+    CHECK(pipeline::has_truth(whole));
+}
+
+TEST_CASE("a frame of other geometry makes its own hierarchy", "[pipeline][frame]") {
+    core::SerialExecutor const serial;
+    Stage moved = stage_of("cubes");
+    pipeline::Shot shot{scene::make_view(moved.scene.cameras.front(), math::ivec2(64, 64)).value(), test_sun()};
+    pipeline::Frame const other = frame_with(serial, test_sun(), 32);
+    shot.before = &other;
+    pipeline::Frame const frame = pipeline::make_frame(moved.scene, moved.geometry, shot, serial).value();
+    shot.before = nullptr;
+    CHECK(frame.lit == pipeline::make_frame(moved.scene, moved.geometry, shot, serial).value().lit);
+}
+
+TEST_CASE("without truth a technique draws the same picture, and no error is known", "[pipeline][frame]") {
+    core::SerialExecutor const serial;
+    Stage const& stage = city();
+    pipeline::Shot shot{street_view(96), test_sun()};
+    pipeline::Frame const known = pipeline::make_frame(stage.scene, stage.geometry, shot, serial).value();
+    shot.truth = false;
+    pipeline::Frame const unknown = pipeline::make_frame(stage.scene, stage.geometry, shot, serial).value();
+    pipeline::CompareConfig config;
+    config.shading.exposure = 0.5F;
+    pipeline::Workspace kept;
+    pipeline::RunRequest wanted = request("shadow-map");
+    auto const with = pipeline::compare(known, std::array{wanted}, config, serial).value();
+    wanted.workspace = &kept;
+    auto const without = pipeline::compare(unknown, std::array{wanted}, config, serial).value();
+    CHECK(without.runs[0].lit.rgb == with.runs[0].lit.rgb);
+    CHECK(without.exposure == 0.5F);
+    CHECK_FALSE(without.runs[0].measured);
+    CHECK(without.runs[0].error.samples == with.runs[0].error.samples);
+    CHECK(without.runs[0].overlay.rgb.empty());
+    CHECK(without.exact.rgb.empty());
+}
