@@ -2,6 +2,7 @@
 
 #include "verbs.hpp"
 
+#include "find_by_name.hpp"
 #include "inputs.hpp"
 #include "output.hpp"
 #include "table.hpp"
@@ -19,16 +20,19 @@ namespace {
 std::string list_of_scenes() {
     std::vector<std::vector<std::string>> rows;
     std::string descriptions;
-    rows.push_back({"scene", "triangles", "options"});
+    rows.push_back({"scene", "options", "paths", "light sets", "triangles"});
     for (scene::ProceduralInfo const& info : scene::procedural_scenes()) {
         std::vector<std::string> options;
         if (info.takes_triangles) options.emplace_back("--triangles");
         if (info.takes_blocks) options.emplace_back("--blocks");
         if (info.takes_offset) options.emplace_back("--offset");
-        rows.push_back({std::string(info.name), grouped(info.default_triangles), join(options, " ")});
+        if (info.max_moving_percent > 0.0) options.emplace_back("--moving");
+        if (info.max_lights > 0) options.emplace_back("--lights N");
+        rows.push_back({std::string(info.name), join(options, " "), join(names_of(info.paths), " "),
+                        join(names_of(info.light_sets), " "), grouped(info.default_triangles)});
         descriptions += fmt::format("{}: {}\n", info.name, info.description);
     }
-    return aligned(rows) + '\n' + descriptions +
+    return aligned(rows, {.left = 4}) + '\n' + descriptions +
            "\nAny .gltf or .glb file is a scene too. `gnomon scenes NAME` says more about one of either kind.\n";
 }
 
@@ -46,9 +50,12 @@ std::string facts_about(LoadedScene const& loaded) {
         {"meshes", grouped(scene.meshes.size())},
         {"instances", grouped(scene.instances.size())},
         {"materials", grouped(scene.materials.size())},
-        {"images", grouped(scene.images.size())}};
-    std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\n", loaded.text, aligned(numbers),
-                                   names_and_count(scene.cameras), names_and_count(scene.lights));
+        {"images", grouped(scene.images.size())},
+        {"animations", grouped(scene.animations.size())},
+        {"skins", grouped(scene.skins.size())}};
+    std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\nclips   {}\n", loaded.text, aligned(numbers),
+                                   names_and_count(scene.cameras), names_and_count(scene.lights),
+                                   names_and_count(scene.animations));
     for (std::string const& warning : scene.notes.warnings) text += "note    " + warning + '\n';
     return text;
 }
