@@ -105,7 +105,7 @@ std::string flight_page_html(Report const& report, FlightFilms const& films) {
     if (report.has_truth) html += explanation;
     html += table_html(report);
     html += fmt::format("<p class='soft'>Over {} frames: errors are sums, the time is the median frame's, an edge error's "
-                        "maximum is that of the worst frame.</p>\n",
+                        "maximum is that of the worst frame. frames.csv beside this page has a line for each frame.</p>\n",
                         grouped(report.frames));
     html += plots_html(report) + frames_table_html(report);
     if (!films.runs.empty()) html += films_html(report, films);

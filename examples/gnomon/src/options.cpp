@@ -167,7 +167,42 @@ Outcome<core::Done> check_backend(std::optional<std::string> const& backend) {
     return usage_error(fmt::format("--backend {}: this build has cpu; give --backend cpu or leave it out", *backend));
 }
 
-Outcome<Command> run_options(RawOptions const& raw, Verb verb) {
+/// How often, on how many threads, and where to.
+Outcome<core::Done> take_running(RawOptions const& raw, RunOptions& run) {
+    run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
+    run.repeats = run.verb == Verb::compare && !raw.path ? 3 : 1;
+    run.truth = !raw.no_truth;
+    run.json = raw.json;
+    run.out = raw.out;
+    std::optional<core::Failure<Exit>> error;
+    take<std::int64_t>(raw.threads, run.threads, error,
+                       [](std::string const& t) { return read_integer("--threads", t, thread_range); });
+    take<std::int64_t>(raw.repeats, run.repeats, error,
+                       [](std::string const& t) { return read_integer("--repeats", t, repeat_range); });
+    if (error) return *error;
+    if (run.verb == Verb::compare && !run.truth)
+        return usage_error(
+            "--no-truth: compare measures errors, which need the truth; leave it out, or use gnomon render");
+    for (auto const& [name, path] : {std::pair{"--json", &raw.json}, {"--out", &raw.out}})
+        if (*path && (*path)->empty()) return usage_error(fmt::format("{} '': give a name that is not empty", name));
+    return check_backend(raw.backend);
+}
+
+/// Which techniques with which parameters.
+Outcome<core::Done> take_techniques(RawOptions const& raw, RunOptions& run) {
+    run.techniques = raw.techniques;
+    if (run.techniques.empty())
+        run.techniques = run.verb == Verb::compare ? std::vector<std::string>{"shadow-map", "ray"}
+                                                   : std::vector<std::string>{"shadow-map"};
+    for (std::string const& text : raw.params) {
+        auto param = read_param(text);
+        if (!param) return std::move(param).failure();
+        run.params.push_back(*std::move(param));
+    }
+    return core::Done{};
+}
+
+Outcome<RunOptions> run_options(RawOptions const& raw, Verb verb) {
     RunOptions run;
     run.verb = verb;
     auto scene = scene_options(raw);
@@ -178,37 +213,20 @@ Outcome<Command> run_options(RawOptions const& raw, Verb verb) {
     if (!motion) return std::move(motion).failure();
     auto light = light_options(raw);
     if (!light) return std::move(light).failure();
-    if (auto backend = check_backend(raw.backend); !backend) return std::move(backend).failure();
     run.scene = *std::move(scene);
     run.view = *std::move(view);
     run.motion = *std::move(motion);
-    run.truth = !raw.no_truth;
     run.light = *std::move(light);
     if (verb == Verb::flythrough && !raw.size) run.view.size_px = math::ivec2(960, 540);
-    run.techniques = raw.techniques;
-    if (run.techniques.empty())
-        run.techniques = verb == Verb::compare ? std::vector<std::string>{"shadow-map", "ray"}
-                                               : std::vector<std::string>{"shadow-map"};
-    for (std::string const& text : raw.params) {
-        auto param = read_param(text);
-        if (!param) return std::move(param).failure();
-        run.params.push_back(*std::move(param));
-    }
-    run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
-    run.repeats = verb == Verb::compare && !raw.path ? 3 : 1;
-    if (verb == Verb::compare && !run.truth)
-        return usage_error("--no-truth: compare measures errors, which need the truth; leave it out, or use gnomon render");
-    std::optional<core::Failure<Exit>> error;
-    take<std::int64_t>(raw.threads, run.threads, error,
-                       [](std::string const& t) { return read_integer("--threads", t, thread_range); });
-    take<std::int64_t>(raw.repeats, run.repeats, error,
-                       [](std::string const& t) { return read_integer("--repeats", t, repeat_range); });
-    if (error) return *error;
-    run.json = raw.json;
-    run.out = raw.out;
-    for (auto const& [name, path] : {std::pair{"--json", &raw.json}, {"--out", &raw.out}})
-        if (*path && (*path)->empty()) return usage_error(fmt::format("{} '': give a name that is not empty", name));
-    return Command{std::move(run)};
+    if (auto taken = take_techniques(raw, run); !taken) return std::move(taken).failure();
+    if (auto taken = take_running(raw, run); !taken) return std::move(taken).failure();
+    return run;
+}
+
+Outcome<Command> run_command_of(RawOptions const& raw, Verb verb) {
+    auto run = run_options(raw, verb);
+    if (!run) return std::move(run).failure();
+    return Command{*std::move(run)};
 }
 
 Outcome<Command> scenes_options(RawOptions const& raw) {
@@ -233,9 +251,9 @@ Outcome<Command> parse_command_line(int argc, char const* const* argv) {
     if (!raw) return std::move(raw).failure();
     switch (raw->verb) {
         case RawVerb::help: return Command{HelpText{raw->text}};
-        case RawVerb::render: return run_options(raw->options, Verb::render);
-        case RawVerb::compare: return run_options(raw->options, Verb::compare);
-        case RawVerb::flythrough: return run_options(raw->options, Verb::flythrough);
+        case RawVerb::render: return run_command_of(raw->options, Verb::render);
+        case RawVerb::compare: return run_command_of(raw->options, Verb::compare);
+        case RawVerb::flythrough: return run_command_of(raw->options, Verb::flythrough);
         case RawVerb::scenes: return scenes_options(raw->options);
         case RawVerb::info: return Command{InfoOptions{}};
     }

@@ -54,7 +54,9 @@ Outcome<LoadedScene> load_file(SceneOptions const& options) {
     scene::LoadConfig config;
     std::string text = short_name(path);
     if (options.file_scene) {
-        config.scene_name = *options.file_scene;
+        auto const number = integer_from(*options.file_scene);
+        if (!number || *number < 1) return usage_error("--file-scene: a number from 1");
+        config.scene_index = static_cast<std::uint32_t>(*number - 1);
         text += " --file-scene " + *options.file_scene;
     }
     auto loaded = scene::load_gltf(path, config);

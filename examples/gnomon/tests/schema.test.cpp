@@ -22,7 +22,7 @@ Report small_report() {
     report.view = "--camera air --size 4x4";
     report.light = "--sun 0,-1,0";
     report.machine = this_machine();
-    Run run{"ray", "ray", {}};
+    Run run{"ray", "ray", {}, {}};
     run.result.technique = "ray";
     run.result.params = {{"resolution", "512", 512.0, gnomon::pipeline::ParamKind::integer},
                          {"bias", "0.25", 0.25, gnomon::pipeline::ParamKind::real},
