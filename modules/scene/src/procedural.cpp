@@ -16,6 +16,10 @@ using detail::Generator;
 
 /// In alphabetical order.
 constexpr std::array generators{
+    Generator{{.name = "cage",
+               .description = "a bird cage on a table under one lamp: thin bars that overlap; views A, B, C",
+               .default_triangles = 12'000},
+              detail::make_cage},
     Generator{{.name = "city",
                .description = "1260 buildings on a square kilometre, 8-78 m high; --triangles 52000, 254000, 1010000; "
                               "--blocks up to 10M",
@@ -30,6 +34,24 @@ constexpr std::array generators{
                               "A, B, C",
                .default_triangles = 12'000},
               detail::make_cubes},
+    Generator{{.name = "forest",
+               .description = "100 trees in leaf on both sides of a trail; the leaves are alpha-masked and double-sided",
+               .default_triangles = 600'000,
+               .paths = detail::forest_paths},
+              detail::make_forest,
+              detail::make_forest_path},
+    Generator{{.name = "fuzzy",
+               .description = "a cloud of 400,000 single triangles of 0.1 m, 40x20x40 m, over a plane under one lamp",
+               .default_triangles = 400'000,
+               .paths = detail::fuzzy_paths},
+              detail::make_fuzzy,
+              detail::make_fuzzy_path},
+    Generator{{.name = "poles",
+               .description = "400 poles, 4-16 cm thick and 3-8 m high, with thin wires, in the sun",
+               .default_triangles = 96'000,
+               .paths = detail::poles_paths},
+              detail::make_poles,
+              detail::make_poles_path},
     Generator{{.name = "rayyard",
                .description = "1024 boxes, 1-60 m high, under one high lamp, for exact shadow rays; --triangles 59000, "
                               "274000, 1040000",
@@ -42,6 +64,10 @@ constexpr std::array generators{
                .default_triangles = 130'050,
                .takes_offset = true},
               detail::make_sheet},
+    Generator{{.name = "tree",
+               .description = "a large bare tree on a slab under one lamp: branches that overlap; views A, B, C",
+               .default_triangles = 40'000},
+              detail::make_tree},
 };
 
 constexpr std::array<ProceduralInfo, generators.size()> infos = [] {

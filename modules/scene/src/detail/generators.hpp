@@ -22,13 +22,25 @@ inline constexpr std::array<PathInfo, 2> city_paths{{
     {"air", "at 30 m/s over the roofs, 120 m up", 300, path_rate_hz},
 }};
 
+inline constexpr std::array<PathInfo, 1> forest_paths{{{"walk", "along the trail at 1.5 m/s", 300, path_rate_hz}}};
+inline constexpr std::array<PathInfo, 1> fuzzy_paths{{{"walk", "up to the cloud and along its front", 300, path_rate_hz}}};
+inline constexpr std::array<PathInfo, 1> poles_paths{{{"walk", "between two rows at 1.6 m/s", 300, path_rate_hz}}};
+
 /// expects: the name fits, the budget is not 0, `lights` is empty only where there are no sets to choose from, options
 ///          that the scene does not take are at their defaults.
 Result<Scene> make_city(ProceduralConfig const& config);
 Result<CameraPath> make_city_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_cage(ProceduralConfig const& config);
 Result<Scene> make_cubes(ProceduralConfig const& config);
+Result<Scene> make_forest(ProceduralConfig const& config);
+Result<CameraPath> make_forest_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_fuzzy(ProceduralConfig const& config);
+Result<CameraPath> make_fuzzy_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_poles(ProceduralConfig const& config);
+Result<CameraPath> make_poles_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_rayyard(ProceduralConfig const& config);
 Result<Scene> make_sheet(ProceduralConfig const& config);
+Result<Scene> make_tree(ProceduralConfig const& config);
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double sixty_degrees_rad = pi / 3.0;
