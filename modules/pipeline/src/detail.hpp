@@ -4,12 +4,14 @@
 #include <gnomon/core/executor.hpp>
 #include <gnomon/pipeline/frame.hpp>
 #include <gnomon/pipeline/technique.hpp>
+#include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/pass.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,7 @@ class Stopwatch {
 /// The draws of a frame's geometry. Solid triangles go in as few as possible, masked ones by their texture.
 struct DrawList {
     std::vector<raster::AlphaTest> alpha_tests;       ///< Pointed to by `draws`; filled first.
+    std::deque<raster::AlphaMap> alpha_maps;          ///< Pointed to by `alpha_tests`; one for each that differs.
     std::vector<std::vector<std::uint32_t>> rebased;  ///< Indices of draws that use few of the vertices.
     std::vector<raster::Draw> draws;
 

@@ -19,6 +19,14 @@ raster::Draw draw_of(scene::Geometry const& geometry, std::uint32_t first, std::
     return draw;
 }
 
+/// Many draws share few textures: a map is made where none serves yet.
+raster::AlphaMap const* map_of(DrawList& list, raster::AlphaTest const& test) {
+    for (raster::AlphaMap const& map : list.alpha_maps)
+        if (map.is_of(test)) return &map;
+    list.alpha_maps.push_back(raster::make_alpha_map(test));
+    return &list.alpha_maps.back();
+}
+
 /// A pass transforms all vertices of a draw: one that uses a small stretch of them gets that stretch alone.
 void keep_own_vertices(scene::Geometry const& geometry, DrawList& list) {
     for (raster::Draw& draw : list.draws) {
@@ -90,6 +98,7 @@ DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, 
             test.texture = {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v};
             test.factor = static_cast<double>(material.base_color.w);
             test.cutoff = rule.cutoff;
+            test.map = map_of(list, test);
             tested.emplace_back(list.draws.size(), list.alpha_tests.size());
             list.alpha_tests.push_back(test);
         }

@@ -118,9 +118,9 @@ struct BlockJob {
 };
 
 /// Rows [y0, y1) of the block whose first column is `x`, and the block's farthest depth when all eight are drawn.
-template <class M, bool Full, class Depth>
+template <class M, bool Full, class Depth, class W>
 GNOMON_AVX2_INLINE void draw_block(TileJob const& job, BlockJob const& b, PixelRange const& range, std::int32_t x,
-                                   Depth const& depth, Writer<M>& writer) {
+                                   Depth const& depth, W& writer) {
     __m256i const counted = first_columns(range.x1 - x);
     __m256i e[3];
     __m256i step[3];
@@ -140,9 +140,9 @@ GNOMON_AVX2_INLINE void draw_block(TileJob const& job, BlockJob const& b, PixelR
 }
 
 /// `range` counted from the tile's first pixel.
-template <class M, class Depth>
+template <class M, class Depth, class W>
 GNOMON_AVX2_INLINE void draw_blocks(TileJob const& job, TileEdge const (&edge)[3], PixelRange const& range,
-                                    Depth const& depth, Writer<M>& writer) {
+                                    Depth const& depth, W& writer) {
     BlockJob b;
     for (int i = 0; i < 3; ++i) {
         b.edge[i] = edge[i];

@@ -8,8 +8,8 @@ namespace gnomon::raster::detail {
 
 namespace {
 
-template <class M>
-GNOMON_AVX2_INLINE void draw_narrow(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
+template <class M, class W>
+GNOMON_AVX2_INLINE void draw_narrow(TileJob const& job, Record const& r, PixelRange const& range, W& writer) {
     std::int32_t const dx = range.x0 - r.min_x;
     std::int32_t const dy = range.y0 - r.min_y;
     __m256i e[3];
@@ -32,8 +32,8 @@ GNOMON_AVX2_INLINE PixelRange from_tile(TileJob const& job, PixelRange const& ra
     return {range.x0 - job.x0, range.y0 - job.y0, range.x1 - job.x0, range.y1 - job.y0};
 }
 
-template <class M>
-GNOMON_AVX2 void draw_wide(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
+template <class M, class W>
+GNOMON_AVX2 void draw_wide(TileJob const& job, Record const& r, PixelRange const& range, W& writer) {
     TileEdge edge[3];
     for (int i = 0; i < 3; ++i)
         edge[i] = {r.edge[i] + r.step_x[i] * (job.x0 - r.min_x) + r.step_y[i] * (job.y0 - r.min_y), r.step_x[i],
@@ -56,8 +56,8 @@ GNOMON_AVX2_INLINE bool narrow_edge(ShiftedEdge const& e, TileEdge& out) {
     return true;
 }
 
-template <class M>
-GNOMON_AVX2 void draw_large_x8(TileJob const& job, Record const& r, PixelRange const& range, Writer<M>& writer) {
+template <class M, class W>
+GNOMON_AVX2 void draw_large_x8(TileJob const& job, Record const& r, PixelRange const& range, W& writer) {
     Oriented const t = oriented_of_large(r);
     ShiftedEdge e[3];
     TileEdge edge[3];

@@ -58,7 +58,7 @@ struct TileJob {
     bool quantize;
     bool clamp;  // Depths may leave [0, 1].
     void const* masked_context;
-    MaskedFn masked;  // Draws one record of an alpha-tested draw.
+    MaskedFn masked;  // Draws one record of an alpha-tested draw, its range within the tile not empty.
 };
 
 /// What vertex work needs of a draw and the viewport.
@@ -124,6 +124,7 @@ struct KernelTable {
     void (*clear)(TileJob const&, float farthest, std::uint32_t no_id);
     /// Copies a whole tile of 32-bit elements out past the caches; null where there is no such store.
     void (*stream)(TileRows const& to, void const* from);
+    MaskedFn masked;  // For `TileJob::masked`.
 };
 
 /// Sets up triangle `triangle` of the job through the reference path, clipping it where needed.

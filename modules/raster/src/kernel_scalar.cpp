@@ -1,5 +1,6 @@
 // The reference kernel: one vertex, one triangle, one sample at a time.
 
+#include "masked.hpp"
 #include "pieces.hpp"
 #include "sample_loop.hpp"
 
@@ -42,7 +43,7 @@ void clear(TileJob const& job, float farthest, std::uint32_t no_id) {
 }  // namespace
 
 KernelTable const& scalar_kernel() noexcept {
-    static constexpr KernelTable table{&transform, &setup, &tile, &clear, nullptr};
+    static constexpr KernelTable table{&transform, &setup, &tile, &clear, nullptr, &draw_masked};
     return table;
 }
 

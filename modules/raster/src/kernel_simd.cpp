@@ -7,6 +7,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(GNOMON_FORCE_SCALAR) && !defined(GNOMON_SCALAR)
 
+#include "avx2_masked.hpp"
 #include "avx2_setup.hpp"
 #include "avx2_tile.hpp"
 #include "avx2_transform.hpp"
@@ -14,7 +15,8 @@
 namespace gnomon::raster::detail {
 
 KernelTable const* simd_kernel() noexcept {
-    static constexpr KernelTable table{&avx2_transform, &avx2_setup, &avx2_tile, &avx2_clear, &avx2_stream};
+    static constexpr KernelTable table{&avx2_transform, &avx2_setup, &avx2_tile, &avx2_clear, &avx2_stream,
+                                       &avx2_masked};
     return __builtin_cpu_supports("avx2") ? &table : nullptr;
 }
 

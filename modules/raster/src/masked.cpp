@@ -8,17 +8,6 @@ namespace gnomon::raster::detail {
 
 namespace {
 
-/// A linear function of a pixel's coordinates.
-struct Linear {
-    double dx, dy, constant;
-    [[nodiscard]] double operator()(double x, double y) const { return dx * x + dy * y + constant; }
-};
-
-/// Perspective-correct texture coordinates of one triangle: (u / w, v / w) at a pixel, from its corners before clipping.
-struct TexturePlane {
-    Linear w, u, v;
-};
-
 /// weight[i] . (x, y, 1): the weight of corner i at a point of normalized device space, up to a common factor.
 struct CornerWeights {
     double weight[3][3];
@@ -48,33 +37,40 @@ CornerWeights make_corner_weights(MaskedDraw const& draw, std::uint32_t triangle
     return made;
 }
 
+}  // namespace
+
+MaskedDraw make_masked_draw(AlphaTest const& test, VertexJob const& vertex, IndexSpan indices,
+                            std::uint32_t id_base) noexcept {
+    MaskedDraw made{&test, nullptr, &vertex, indices, id_base, 0.0, 0.0, 0.0, 0.0};
+    if (test.map != nullptr && test.map->is_of(test)) made.map = test.map;
+    made.scale_x = 1.0 / static_cast<double>(vertex.half_width);
+    made.scale_y = 1.0 / static_cast<double>(vertex.half_height);
+    made.shift_x = (0.5 - vertex.offset_x / 256.0) * made.scale_x - 1.0;
+    made.shift_y = (0.5 - vertex.offset_y / 256.0) * made.scale_y - 1.0;
+    return made;
+}
+
 /// The weights' sums over the corners, moved from device space to the pixels of the viewport.
 TexturePlane make_texture_plane(MaskedDraw const& draw, std::uint32_t triangle) {
     CornerWeights const corners = make_corner_weights(draw, triangle);
-    VertexJob const& view = *draw.vertex;
-    double const scale_x = 1.0 / static_cast<double>(view.half_width);
-    double const scale_y = 1.0 / static_cast<double>(view.half_height);
-    double const shift_x = (0.5 - view.offset_x / 256.0) * scale_x - 1.0;
-    double const shift_y = (0.5 - view.offset_y / 256.0) * scale_y - 1.0;
     auto const linear = [&](auto const& factor) {
         double sum[3] = {0.0, 0.0, 0.0};
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) sum[k] += corners.weight[i][k] * factor(corners.uv[i]);
-        return Linear{sum[0] * scale_x, sum[1] * scale_y, sum[0] * shift_x + sum[1] * shift_y + sum[2]};
+        return Linear{sum[0] * draw.scale_x, sum[1] * draw.scale_y,
+                      sum[0] * draw.shift_x + sum[1] * draw.shift_y + sum[2]};
     };
     return {linear([](math::vec2 const&) { return 1.0; }),
             linear([](math::vec2 const& uv) { return static_cast<double>(uv.x); }),
             linear([](math::vec2 const& uv) { return static_cast<double>(uv.y); })};
 }
 
-}  // namespace
-
 bool is_complete(AlphaTest const& test, std::size_t positions) noexcept {
     return test.uv.size() >= positions && math::is_complete(test.texture);
 }
 
 std::uint64_t draw_masked(TileJob const& job, Record const& record) {
-    MaskedDraw const& draw = static_cast<MaskedDraw const*>(job.masked_context)[(record.tag >> 1U) - 1];
+    MaskedDraw const& draw = masked_draw(job, record);
     TexturePlane const plane = make_texture_plane(draw, record.id - draw.id_base);
     AlphaTest const& test = *draw.test;
     return draw_samples(job, record, [&](std::int32_t px, std::int32_t py) {

@@ -259,7 +259,7 @@ class Pass {
                             .quantize = layer.layer->target.is_unorm16(),
                             .clamp = config.range == DepthRange::clamp,
                             .masked_context = plan_.masked.data(),
-                            .masked = &detail::draw_masked};
+                            .masked = layer.kernel->masked};
         bool loaded = batch.load == Load::clear;
         if (loaded) detail::load_tile(layer, job, batch.load);
         std::uint64_t written = 0;

@@ -127,7 +127,7 @@ void make_item(Plan& plan, Draw const& draw, Group const& group, std::size_t i) 
     item.kernel = layer.kernel;
     if (group.first_masked == 0) return;
     std::size_t const masked = group.first_masked + instance;
-    plan.masked[masked - 1] = {draw.alpha_test, &item.vertex, draw.indices, item.setup.id_base};
+    plan.masked[masked - 1] = make_masked_draw(*draw.alpha_test, item.vertex, draw.indices, item.setup.id_base);
     item.setup.tag = static_cast<std::uint32_t>(masked) << 1U;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The CPU rasterizer: exact coverage, a depth with a stated bound, the same image from any number of threads.
 
+#include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/depth_pyramid.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/instances.hpp>

@@ -44,12 +44,17 @@ class IndexSpan {
     std::size_t size_ = 0;
 };
 
+class AlphaMap;
+
 /// Makes a draw's triangles holes where their alpha is below the cutoff: mip 0, bilinear, >= cutoff, in double.
 struct AlphaTest {
     core::StridedSpan<math::vec2> uv;  ///< One for each position.
     math::AlphaTexture texture;
     double factor = 1.0;  ///< Multiplies the texture's alpha (glTF: baseColorFactor's).
     double cutoff = 0.5;
+    /// Optional: `make_alpha_map` of this test. Makes a pass faster and changes nothing; one of another test is not
+    /// used.
+    AlphaMap const* map = nullptr;
 };
 
 /// Triangles to draw. Corner positions become `clip_from_relative * (position - origin, 1)`, both steps in float.
