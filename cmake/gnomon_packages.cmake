@@ -13,6 +13,7 @@ set(GNOMON_PACKAGE_benchmark benchmark benchmark::benchmark)
 set(GNOMON_PACKAGE_Catch2 Catch2 Catch2::Catch2)
 set(GNOMON_PACKAGE_Vulkan Vulkan Vulkan::Vulkan)
 set(GNOMON_PACKAGE_stb HEADER stb_image.h stb)
+set(GNOMON_PACKAGE_openmesh OpenMesh OpenMeshTools)
 set(GNOMON_PACKAGE_webp LIBRARY webp/mux.h webpmux webpdemux webp)  # Debian's has no CMake config.
 
 # A package without a CMake config: header and libraries become an imported target.

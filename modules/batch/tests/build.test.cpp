@@ -52,8 +52,6 @@ auto small_meshes() {
     };
 }
 
-[[maybe_unused]] std::string check_string(Mesh const& mesh) { return std::to_string(mesh.groups.size()) + " triangles"; }
-
 }  // namespace
 
 TEST_CASE("build_batches is the paper's rule done naively", "[batch][property]") {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 namespace shapes {
@@ -48,6 +50,20 @@ struct Mesh {
         groups.push_back(group);
     }
 };
+
+/// How a property test prints one.
+[[nodiscard]] inline std::string check_string(Mesh const& mesh) {
+    std::string text;
+    char corner[96];
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        vec3 const& p = mesh.positions[mesh.indices[i]];
+        std::snprintf(corner, sizeof corner, "%s(%.9g, %.9g, %.9g)", i % 3 == 0 ? "\n  " : " ", static_cast<double>(p.x),
+                      static_cast<double>(p.y), static_cast<double>(p.z));
+        text += corner;
+        if (i % 3 == 2) text += " of group " + std::to_string(mesh.groups[i / 3]);
+    }
+    return text;
+}
 
 /// Small triangles anywhere in a cube of 100 m.
 inline Mesh soup(std::size_t count, std::uint64_t seed = 1) {

@@ -94,12 +94,6 @@ auto bad_meshes() {
     };
 }
 
-[[maybe_unused]] std::string check_string(Mesh const& m) {
-    std::string text = std::to_string(m.positions.size()) + " positions, triangles";
-    for (std::uint32_t const i : m.indices) text += " " + std::to_string(i);
-    return text;
-}
-
 MeshReport report_of(Mesh const& m) {
     mesh::HalfEdges const built = mesh::build_half_edges(m.list());
     CHECK(validate(built, m.list()) == MeshFault::none);

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 namespace meshes {
@@ -34,6 +36,20 @@ struct Mesh {
         return mesh;
     }
 };
+
+/// How a property test prints one.
+[[nodiscard]] inline std::string check_string(Mesh const& mesh) {
+    std::string text = "positions";
+    char number[64];
+    for (vec3 const& p : mesh.positions) {
+        std::snprintf(number, sizeof number, " (%.9g, %.9g, %.9g)", static_cast<double>(p.x), static_cast<double>(p.y),
+                      static_cast<double>(p.z));
+        text += number;
+    }
+    text += ", triangles";
+    for (std::uint32_t const i : mesh.indices) text += " " + std::to_string(i);
+    return text;
+}
 
 inline Mesh tetrahedron() {
     return {{vec3(0.0F, 0.0F, 0.0F), vec3(1.0F, 0.0F, 0.0F), vec3(0.0F, 1.0F, 0.0F), vec3(0.0F, 0.0F, 1.0F)},
