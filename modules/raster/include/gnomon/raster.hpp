@@ -2,6 +2,7 @@
 // The CPU rasterizer: exact coverage, a depth with a stated bound, the same image from any number of threads.
 
 #include <gnomon/raster/alpha_map.hpp>
+#include <gnomon/raster/box_test.hpp>
 #include <gnomon/raster/depth_pyramid.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/instances.hpp>
