@@ -147,6 +147,11 @@ inline void take_input(check::FuzzBytes& in, Input& input) {
     }
 }
 
+/// The only pixels that a pass may write.
+inline raster::Rect drawn_rect(Input const& input) {
+    return input.config.scissor.value_or(raster::Rect{0, 0, input.width, input.height});
+}
+
 /// What a seed says of its one draw.
 struct Seed {
     int size = 100;

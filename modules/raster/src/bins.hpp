@@ -44,8 +44,10 @@ struct BinGrid {
 }
 
 /// Calls f(bin) for each bin that the record's bounds touch on its level.
-template <class F>
-inline void for_each_bin(BinGrid const& grid, Record const& r, F&& f) {
+///
+/// A record is anything with bounds in pixels: min_x, min_y, max_x, max_y.
+template <class R, class F>
+inline void for_each_bin(BinGrid const& grid, R const& r, F&& f) {
     int level = 0;
     std::uint32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     for (;; ++level) {
@@ -65,8 +67,8 @@ inline void for_each_bin(BinGrid const& grid, Record const& r, F&& f) {
 /// expects: `begin` has `grid.total + 2` elements.
 /// returns: the number of entries; those of bin b are `entries[begin[b]] .. entries[begin[b + 1]]`. `entries(n)` is
 ///          asked once for room for n.
-template <class Entries>
-inline std::size_t sort_into_bins(BinGrid const& grid, Record const* records, std::size_t count, std::uint32_t* begin,
+template <class R, class Entries>
+inline std::size_t sort_into_bins(BinGrid const& grid, R const* records, std::size_t count, std::uint32_t* begin,
                                   Entries&& entries) {
     for (std::uint32_t b = 0; b < grid.total + 2; ++b) begin[b] = 0;
     for (std::size_t i = 0; i < count; ++i)

@@ -3,6 +3,7 @@
 
 #include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/box_test.hpp>
+#include <gnomon/raster/conservative.hpp>
 #include <gnomon/raster/depth_pyramid.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/instances.hpp>
@@ -10,4 +11,5 @@
 #include <gnomon/raster/pass.hpp>
 #include <gnomon/raster/sample_query.hpp>
 #include <gnomon/raster/target.hpp>
+#include <gnomon/raster/tile_workspace.hpp>
 #include <gnomon/raster/triangle.hpp>

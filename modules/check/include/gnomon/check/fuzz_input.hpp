@@ -46,8 +46,9 @@ struct FuzzWriter {
 
     template <class T>
     requires std::is_trivially_copyable_v<T> FuzzWriter& put(T const& value) {
-        auto const* const from = reinterpret_cast<std::uint8_t const*>(&value);
-        bytes.insert(bytes.end(), from, from + sizeof(T));
+        std::size_t const end = bytes.size();
+        bytes.resize(end + sizeof(T));
+        std::memcpy(bytes.data() + end, &value, sizeof(T));
         return *this;
     }
     /// What `in(low, high)` reads as `value`.

@@ -1,0 +1,14 @@
+#include "tile_workspace.hpp"
+
+namespace gnomon::raster {
+
+TileWorkspace::TileWorkspace() : state_(std::make_unique<State>()) {}
+TileWorkspace::~TileWorkspace() = default;
+TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
+TileWorkspace& TileWorkspace::operator=(TileWorkspace&&) noexcept = default;
+
+std::size_t TileWorkspace::size_bytes() const noexcept {
+    return state_->plan.size_bytes() + state_->conservative.size_bytes();
+}
+
+}  // namespace gnomon::raster
