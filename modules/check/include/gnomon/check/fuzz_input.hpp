@@ -46,9 +46,9 @@ struct FuzzWriter {
 
     template <class T>
     requires std::is_trivially_copyable_v<T> FuzzWriter& put(T const& value) {
-        std::size_t const end = bytes.size();
-        bytes.resize(end + sizeof(T));
-        std::memcpy(bytes.data() + end, &value, sizeof(T));
+        std::uint8_t raw[sizeof(T)];
+        std::memcpy(raw, &value, sizeof(T));
+        for (std::uint8_t const byte : raw) bytes.push_back(byte);
         return *this;
     }
     /// What `in(low, high)` reads as `value`.
