@@ -4,6 +4,7 @@
 
 #include <gnomon/pipeline/measures.hpp>
 #include <gnomon/projection.hpp>
+#include <gnomon/raster/layers.hpp>
 #include <gnomon/shadow.hpp>
 
 #include <algorithm>
@@ -167,6 +168,7 @@ struct Workspace::State {
     std::vector<std::uint16_t> unorm16;
     std::vector<math::View> views;
     std::vector<shadow::MapView> maps;
+    std::vector<raster::Layer> layers;  ///< One for each map.
     DrawList draws;
     scene::Geometry const* drawn = nullptr;  ///< What `draws` were made of.
     raster::Cull cull = raster::Cull::none;
@@ -242,6 +244,16 @@ bool share_a_corner(scene::Geometry const& g, std::uint32_t a, std::uint32_t b) 
     return false;
 }
 
+/// All maps are drawn in one pass: six small faces one by one would leave threads idle.
+void list_layers(Frame const& frame, Workspace::State& state, Options const& options) {
+    state.layers.clear();
+    for (std::size_t face = 0; face < state.views.size(); ++face)
+        state.layers.push_back({.target = target_of(state, options, face),
+                                .origin = math::to_float(state.views[face].eye_m - frame.geometry->origin_m),
+                                .clip_from_relative = math::clip_from_relative(state.views[face]),
+                                .config = pass_config(options.depth)});
+}
+
 Result<TechniqueOutput> run_shadow_map(Frame const& frame, Params const& params, Workspace& workspace,
                                        core::ExecutorRef executor) {
     Options const options = read_options(params);
@@ -266,13 +278,10 @@ Result<TechniqueOutput> run_shadow_map(Frame const& frame, Params const& params,
     if (auto ok = allocate(state, options, state.views.size()); !ok) return std::move(ok).failure();
 
     (void)watch.lap_ms();
+    list_layers(frame, state, options);
     std::uint64_t triangles = 0;
-    for (std::size_t face = 0; face < state.views.size(); ++face) {
-        state.draws.look_from(state.views[face], frame.geometry->origin_m);
-        triangles += raster::depth_pass(state.draws.draws, target_of(state, options, face), pass_config(options.depth),
-                                        state.raster, executor)
-                         .triangles;
-    }
+    for (raster::PassStats const& face : raster::layered_pass(state.draws.draws, state.layers, state.raster, executor))
+        triangles += face.triangles;
     double const draw_ms = watch.lap_ms();
     look_up_all(frame, state, options, executor, output);
     output.stages = {{"fit", fit_ms}, {"depth_pass", draw_ms}, {"lookup", watch.lap_ms()}};
