@@ -8,10 +8,16 @@
 #include "table.hpp"
 #include "values.hpp"
 
+#include <gnomon/mesh/half_edges.hpp>
+#include <gnomon/scene/batches.hpp>
+#include <gnomon/scene/flatten.hpp>
 #include <gnomon/scene/procedural.hpp>
 #include <gnomon/scene/write.hpp>
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
 
 namespace gnomon::command {
 
@@ -42,6 +48,25 @@ std::string names_and_count(auto const& things) {
     return things.empty() ? "none" : fmt::format("{}: {}", things.size(), join(names));
 }
 
+/// How closed the surface is, corners welded by place, and what it comes to in batches.
+std::string facts_about_triangles(scene::Scene const& scene) {
+    scene::Geometry const geometry = scene::flatten(scene);
+    mesh::MeshReport const report = mesh::build_half_edges({geometry.positions, geometry.indices}).report;
+    auto const percent = [&](std::uint64_t edges) {
+        return 100.0 * static_cast<double>(edges) / static_cast<double>(std::max<std::uint64_t>(report.edges(), 1));
+    };
+    std::string text = fmt::format("edges   {}: {:.1f} % closed, {:.1f} % open, {:.1f} % flipped, {:.1f} % of three triangles or more\n",
+                                   grouped(report.edges()), percent(report.manifold_edges), percent(report.open_edges),
+                                   percent(report.flipped_edges), percent(report.non_manifold_edges));
+    if (report.duplicate_triangles + report.degenerate_triangles != 0)
+        text += fmt::format("        but for {} duplicate and {} degenerate triangles\n", grouped(report.duplicate_triangles),
+                            grouped(report.degenerate_triangles));
+    batch::Config const config;
+    scene::GeometryBatches const made = scene::make_batches(geometry, config);
+    return text + fmt::format("batches {} of up to {} triangles, in {} instances and draws\n",
+                              grouped(made.batches.batches.size()), config.max_triangles, grouped(made.groups.size()));
+}
+
 std::string facts_about(LoadedScene const& loaded) {
     scene::Scene const& scene = loaded.scene;
     std::vector<std::vector<std::string>> const numbers = {
@@ -56,6 +81,7 @@ std::string facts_about(LoadedScene const& loaded) {
     std::string text = fmt::format("{}\n\n{}\nviews   {}\nlights  {}\nclips   {}\n", loaded.text, aligned(numbers),
                                    names_and_count(scene.cameras), names_and_count(scene.lights),
                                    names_and_count(scene.animations));
+    text += facts_about_triangles(scene);
     for (std::string const& warning : scene.notes.warnings) text += "note    " + warning + '\n';
     return text;
 }

@@ -26,6 +26,10 @@ std::atomic<std::size_t> refit_allocations{0};
     if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
     throw std::bad_alloc();
 }
+[[gnu::noinline]] void* operator new(std::size_t bytes, std::nothrow_t const&) noexcept {
+    ++refit_allocations;
+    return std::malloc(bytes == 0 ? 1 : bytes);
+}
 [[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
     ++refit_allocations;
     auto const step = static_cast<std::size_t>(alignment);

@@ -23,7 +23,7 @@ namespace {
 using Place = std::tuple<float, float, float>;  // compares -0 and +0 equal
 
 /// The policy done over maps of places, with no indices at all. Positions must not be NaN unless the triangle is left out.
-MeshReport report_by_maps(Mesh const& m) {
+MeshReport report_by_maps(Mesh const& m, bool keep_duplicates = false) {
     MeshReport report;
     std::set<Place> places;
     for (math::vec3 const& p : m.positions) {
@@ -49,7 +49,7 @@ MeshReport report_by_maps(Mesh const& m) {
         if (!exists || !finite || degenerate) continue;
         if (seen.contains({v[0], v[1], v[2]}) || seen.contains({v[1], v[2], v[0]}) || seen.contains({v[2], v[0], v[1]})) {
             ++report.duplicate_triangles;
-            continue;
+            if (!keep_duplicates) continue;
         }
         seen.insert({v[0], v[1], v[2]});
         for (std::size_t k = 0; k < 3; ++k) {
@@ -107,6 +107,9 @@ TEST_CASE("build_half_edges finds what maps of places find", "[mesh][property]")
         mesh::HalfEdges const built = mesh::build_half_edges(m.list());
         CHECK(built.report == report_by_maps(m));
         CHECK(validate(built, m.list()) == MeshFault::none);
+        mesh::HalfEdges const all = mesh::build_half_edges(m.list(), {.keep_duplicates = true});
+        CHECK(all.report == report_by_maps(m, true));
+        CHECK(validate(all, m.list()) == MeshFault::none);
     });
 }
 

@@ -2,6 +2,7 @@
 // All of scene.
 
 #include <gnomon/scene/animation.hpp>
+#include <gnomon/scene/batches.hpp>
 #include <gnomon/scene/flatten.hpp>
 #include <gnomon/scene/load.hpp>
 #include <gnomon/scene/path.hpp>

@@ -4,8 +4,8 @@
 // Policy, the same for everyone who builds on it:
 // - Vertices are places (see weld.hpp): seams of normals and texture coordinates are no borders.
 // - A triangle is left out that has a bad index, a position that is not finite, two corners at one place (degenerate), or
-//   the same corners in the same turning sense as an earlier one (duplicate). In the opposite sense it is kept: a sheet
-//   of two sides. A sliver whose three places lie on one line is kept: it may close the surface.
+//   the same corners in the same turning sense as an earlier one (duplicate, unless `keep_duplicates`). In the opposite
+//   sense it is kept: a sheet of two sides. A sliver whose three places lie on one line is kept: it may close the surface.
 // - An edge is all half-edges between two places. With two half-edges that run against each other it is `manifold`, and
 //   they are twins. With one it is `open`; with two that run the same way `flipped`; with more `non_manifold`. The
 //   half-edges of those three kinds have no twin. `Edge` has them all, for algorithms that count how often an edge is
@@ -99,6 +99,10 @@ struct HalfEdges {
 /// Every edge is passed as often one way as the other: inside and outside are defined, though edges may be shared by more
 /// than two triangles.
 [[nodiscard]] inline bool is_closed(MeshReport const& report) noexcept { return report.unbalanced_edges == 0; }
+
+struct HalfEdgeConfig {
+    bool keep_duplicates = false;  ///< They are counted all the same, and their edges are not manifold.
+};
 
 /// Memory that `build_half_edges` keeps from call to call.
 struct Workspace {
@@ -215,7 +219,7 @@ inline void find_edges(HalfEdges& mesh, Workspace& workspace) {
 /// expects: three indices per triangle, fewer than 2^32 of them, fewer than 2^31 positions.
 /// returns: in `out`, the same on every machine. Any data is legal; what is left out is counted in `out.report`.
 /// cost:    O(n log v), v the most triangles at one vertex. `workspace` and `out` allocate only where they were smaller before.
-inline void build_half_edges(Triangles const& mesh, Workspace& workspace, HalfEdges& out) {
+inline void build_half_edges(Triangles const& mesh, Workspace& workspace, HalfEdges& out, HalfEdgeConfig const& config = {}) {
     GNOMON_EXPECT(mesh.indices.size() % 3 == 0 && mesh.indices.size() < no_index);
     out.report = {};
     out.vertex_of.resize(mesh.positions.size());
@@ -229,13 +233,14 @@ inline void build_half_edges(Triangles const& mesh, Workspace& workspace, HalfEd
     out.edge_of.assign(mesh.indices.size(), no_index);
     detail::find_duplicates(out, workspace);
     detail::count_fates(out);
+    if (config.keep_duplicates) std::replace(out.fate.begin(), out.fate.end(), Fate::duplicate, Fate::kept);
     detail::find_edges(out, workspace);
 }
 
-[[nodiscard]] inline HalfEdges build_half_edges(Triangles const& mesh) {
+[[nodiscard]] inline HalfEdges build_half_edges(Triangles const& mesh, HalfEdgeConfig const& config = {}) {
     Workspace workspace;
     HalfEdges out;
-    build_half_edges(mesh, workspace, out);
+    build_half_edges(mesh, workspace, out, config);
     return out;
 }
 
