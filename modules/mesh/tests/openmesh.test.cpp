@@ -112,7 +112,7 @@ TEST_CASE("LODs of a closed mesh are closed, smaller, and as far away as they sa
 }
 
 TEST_CASE("make_lods stops at the coarsest mesh that keeps the error", "[mesh][openmesh]") {
-    meshes::Mesh const m = meshes::sphere(14);
+    meshes::Mesh const m = meshes::sphere(9);
     std::array const ratios{0.5, 0.2, 0.05, 0.02};
     auto const all = mesh::make_lods(m.list(), {.ratios = ratios});
     REQUIRE(all.size() == 4);
@@ -134,7 +134,7 @@ TEST_CASE("borders and edges of four triangles stay where they are", "[mesh][ope
     CHECK(lods[0].mesh.indices.size() < sheet.indices.size() / 2);
 
     meshes::Mesh two = meshes::sphere(8);
-    two.append(two, math::vec3(0.0F, 0.0F, 0.0F));
+    two.append(meshes::sphere(8));
     for (std::size_t i = two.positions.size() / 2; i < two.positions.size(); ++i) {
         two.positions[i].x = 2.0F - two.positions[i].x;  // touches the first one in one point
     }
