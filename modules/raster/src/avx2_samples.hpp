@@ -2,20 +2,12 @@
 // Eight samples of one row: compared, written, counted. Included by kernel_simd.cpp only.
 
 #include "avx2.hpp"
+#include "kernel_mode.hpp"
 #include "pieces.hpp"
 
 namespace gnomon::raster::detail {
 
 namespace {
-
-/// What a kernel is compiled for. `Clamp`: depths may be below 0 or beyond 1 (`DepthRange::clamp`).
-template <bool Reversed, bool Quantize, bool Ids, bool Clamp>
-struct Mode {
-    static constexpr bool reversed = Reversed;
-    static constexpr bool quantize = Quantize;
-    static constexpr bool ids = Ids;
-    static constexpr bool clamp = Clamp;
-};
 
 /// As a target holds it: clamped, and a code for a 16-bit one. Monotone, so it keeps bounds.
 template <class M>

@@ -395,6 +395,7 @@ std::uint64_t ConservativeRules::draw(TileRect const& tile, bool first_batch, Fo
                       .depth = depth,
                       .id = nullptr,
                       .farthest = farthest,
+                      .blocked = false,
                       .reversed = !keeps_least_,
                       .quantize = quantize_,
                       .clamp = true,

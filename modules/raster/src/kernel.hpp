@@ -9,7 +9,8 @@ namespace gnomon::raster::detail {
 
 inline constexpr std::int32_t tile_shift = 6;
 inline constexpr std::int32_t tile_size = 1 << tile_shift;
-inline constexpr std::int32_t blocks_per_tile = (tile_size / 8) * (tile_size / 8);
+inline constexpr std::int32_t blocks_per_tile = (tile_size / 4) * (tile_size / 4);  // Of the smallest blocks.
+inline constexpr std::int32_t farthest_size = blocks_per_tile + tile_size;          // A window may reach below.
 inline constexpr std::int32_t tile_pitch = tile_size + 8;  // A vector may start at the tile's last column.
 
 inline constexpr std::int32_t fraction_bits = 8;
@@ -48,12 +49,19 @@ static_assert(sizeof(Record) == 64);
 struct TileJob;
 using MaskedFn = std::uint64_t (*)(TileJob const&, Record const&);
 
+/// Where a kernel with `to_rows` keeps sample (x, y) of a tile: in blocks of 4 x 4, row by row, as are the samples of a
+/// block.
+[[nodiscard]] constexpr std::ptrdiff_t blocked_offset(std::int32_t x, std::int32_t y) noexcept {
+    return std::ptrdiff_t{(y >> 2) * (tile_size / 4) + (x >> 2)} * 16 + (y & 3) * 4 + (x & 3);
+}
+
 /// One tile's local image and its limits; rows are `tile_pitch` apart.
 struct TileJob {
     std::int32_t x0, y0, x1, y1;  // Pixels of the target, end exclusive.
     float* depth;                 // Depths, or codes as floats for a 16-bit target.
     std::uint32_t* id;            // Null in a depth pass.
-    float* farthest;              // Per block of 8x8 samples, 8 a row: no sample of the block is farther.
+    float* farthest;              // Per block of the kernel's: no sample of the block is farther.
+    bool blocked;                 // `depth` and `id` are in the order of `blocked_offset`, not in rows.
     bool reversed;
     bool quantize;
     bool clamp;  // Depths may leave [0, 1].
@@ -125,6 +133,9 @@ struct KernelTable {
     /// Copies a whole tile of 32-bit elements out past the caches; null where there is no such store.
     void (*stream)(TileRows const& to, void const* from);
     MaskedFn masked;  // For `TileJob::masked`.
+    /// Between a tile's blocks and rows `tile_pitch` apart; null where the kernel itself works in rows.
+    void (*to_rows)(std::uint32_t const* blocks, std::uint32_t* rows);
+    void (*from_rows)(std::uint32_t const* rows, std::uint32_t* blocks);
 };
 
 /// Sets up triangle `triangle` of the job through the reference path, clipping it where needed.
@@ -132,6 +143,12 @@ void setup_one(SetupJob const&, std::size_t triangle, RecordSink&, SetupCounts&)
 
 [[nodiscard]] KernelTable const& scalar_kernel() noexcept;
 /// Null where the machine or the build has none.
-[[nodiscard]] KernelTable const* simd_kernel() noexcept;
+[[nodiscard]] KernelTable const* avx2_kernel() noexcept;
+[[nodiscard]] KernelTable const* avx512_kernel() noexcept;
+/// The widest of them.
+[[nodiscard]] inline KernelTable const* simd_kernel() noexcept {
+    KernelTable const* const wide = avx512_kernel();
+    return wide != nullptr ? wide : avx2_kernel();
+}
 
 }  // namespace gnomon::raster::detail

@@ -43,7 +43,7 @@ void clear(TileJob const& job, float farthest, std::uint32_t no_id) {
 }  // namespace
 
 KernelTable const& scalar_kernel() noexcept {
-    static constexpr KernelTable table{&transform, &setup, &tile, &clear, nullptr, &draw_masked};
+    static constexpr KernelTable table{&transform, &setup, &tile, &clear, nullptr, &draw_masked, nullptr, nullptr};
     return table;
 }
 

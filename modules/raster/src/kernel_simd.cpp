@@ -14,9 +14,9 @@
 
 namespace gnomon::raster::detail {
 
-KernelTable const* simd_kernel() noexcept {
-    static constexpr KernelTable table{&avx2_transform, &avx2_setup, &avx2_tile, &avx2_clear, &avx2_stream,
-                                       &avx2_masked};
+KernelTable const* avx2_kernel() noexcept {
+    static constexpr KernelTable table{&avx2_transform, &avx2_setup,  &avx2_tile, &avx2_clear,
+                                       &avx2_stream,    &avx2_masked, nullptr,    nullptr};
     return __builtin_cpu_supports("avx2") ? &table : nullptr;
 }
 
@@ -26,7 +26,7 @@ KernelTable const* simd_kernel() noexcept {
 
 namespace gnomon::raster::detail {
 
-KernelTable const* simd_kernel() noexcept { return nullptr; }
+KernelTable const* avx2_kernel() noexcept { return nullptr; }
 
 }  // namespace gnomon::raster::detail
 

@@ -244,7 +244,7 @@ class Pass {
     [[nodiscard]] std::uint64_t draw_tile(LayerPlan const& layer, LayerBatch const& batch, std::size_t tile) const {
         alignas(64) float depth[detail::tile_size * detail::tile_pitch];
         alignas(64) std::uint32_t id[detail::tile_size * detail::tile_pitch];
-        alignas(64) float farthest[detail::blocks_per_tile];
+        alignas(64) float farthest[detail::farthest_size];
         std::int32_t const tile_x = batch.tile_x + static_cast<std::int32_t>(tile % batch.tiles_across);
         std::int32_t const tile_y = batch.tile_y + static_cast<std::int32_t>(tile / batch.tiles_across);
         PassConfig const& config = layer.layer->config;
@@ -255,6 +255,7 @@ class Pass {
                             .depth = depth,
                             .id = layer.layer->triangle.data != nullptr ? id : nullptr,
                             .farthest = farthest,
+                            .blocked = layer.kernel->to_rows != nullptr,
                             .reversed = config.depth == math::Depth::reversed,
                             .quantize = layer.layer->target.is_unorm16(),
                             .clamp = config.range == DepthRange::clamp,
@@ -299,6 +300,7 @@ std::span<PassStats const> run_pass(std::span<Draw const> draws, std::span<Layer
                                     Workspace& workspace, core::ExecutorRef executor) {
     Workspace::State& state = workspace.state();
     make_plan(state.plan, draws, layers, draws_own_view, executor);
+    detail::prefer_blocks(state.plan);
     Pass(state, executor).run();
     return state.plan.stats;
 }

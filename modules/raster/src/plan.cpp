@@ -25,6 +25,12 @@ std::int32_t columns_past_a_line(ImageView<float> const& image) {
     return image.stride % 16 == 0 ? static_cast<std::int32_t>(address % 64 / sizeof(float)) : 0;
 }
 
+/// One that works in rows, as all of a tile's callers understand.
+KernelTable const& kernel_of(Kernel kind) {
+    KernelTable const* const simd = kind == Kernel::scalar ? nullptr : avx2_kernel();
+    return simd != nullptr ? *simd : scalar_kernel();
+}
+
 /// Whether tiles can hand out their blocks as they are stored: whole blocks, all of them drawn by this pass.
 bool hands_out_blocks(LayerPlan const& plan, Layer const& layer) {
     return layer.config.pyramid != nullptr && layer.config.load == Load::clear && plan.grid.shift_x % 8 == 0 &&
@@ -38,9 +44,8 @@ bool begin_layer(LayerPlan& plan, Layer const& layer) {
     GNOMON_EXPECT(layer.triangle.data == nullptr ||
                   (layer.triangle.width == whole.width && layer.triangle.height == whole.height));
     PassConfig const& config = layer.config;
-    KernelTable const* const simd = simd_kernel();
     plan.layer = &layer;
-    plan.kernel = config.kernel == Kernel::scalar || simd == nullptr ? &scalar_kernel() : simd;
+    plan.kernel = &kernel_of(config.kernel);
     set_scissor(plan, config.scissor.value_or(whole), whole);
     if (plan.is_empty()) return false;
     plan.streams = plan.kernel->stream != nullptr && !layer.target.is_unorm16() &&
@@ -187,6 +192,19 @@ void make_plan(Plan& plan, std::span<Draw const> draws, std::span<Layer const> l
             make_item(plan, draws[group->draw], *group, i);
         }
     });
+}
+
+void prefer_blocks(Plan& plan) {
+    KernelTable const* const wide = avx512_kernel();
+    if (wide == nullptr) return;
+    for (LayerPlan& layer : plan.layers) {
+        Kernel const wanted = layer.layer->config.kernel;
+        if (wanted == Kernel::automatic || wanted == Kernel::simd) layer.kernel = wide;
+    }
+    for (Group const& group : plan.groups) {
+        LayerPlan& layer = plan.layers[group.layer];
+        if (group.first_masked != 0) layer.kernel = &kernel_of(layer.layer->config.kernel);
+    }
 }
 
 }  // namespace gnomon::raster::detail

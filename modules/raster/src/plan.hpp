@@ -81,4 +81,8 @@ struct Plan {
 void make_plan(Plan& plan, std::span<Draw const> draws, std::span<Layer const> layers, bool draws_own_view,
                core::ExecutorRef executor);
 
+/// Lets layers work in blocks (`TileJob::blocked`) where that is faster: where the machine has such a kernel and no
+/// draw is alpha-tested. For callers that leave a tile's inside to the kernel.
+void prefer_blocks(Plan& plan);
+
 }  // namespace gnomon::raster::detail

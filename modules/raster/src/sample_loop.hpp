@@ -34,7 +34,9 @@ template <class Accept>
                                                 float depth, Accept& accept) {
     depth = at_most(at_least(depth, 0.0F), 1.0F);
     if (job.quantize) depth = to_code(depth);
-    std::ptrdiff_t const at = std::ptrdiff_t{y - job.y0} * tile_pitch + (x - job.x0);
+    std::int32_t const column = x - job.x0;
+    std::int32_t const row = y - job.y0;
+    std::ptrdiff_t const at = job.blocked ? blocked_offset(column, row) : std::ptrdiff_t{row} * tile_pitch + column;
     float& held = job.depth[at];
     if (!(job.reversed ? depth > held : depth < held) || !accept(x, y)) return 0;
     held = depth;

@@ -151,6 +151,7 @@ class Query {
                           .depth = depth,
                           .id = nullptr,
                           .farthest = farthest,
+                          .blocked = false,
                           .reversed = config.depth == math::Depth::reversed,
                           .quantize = layer.layer->target.is_unorm16(),
                           .clamp = config.range == DepthRange::clamp,

@@ -9,20 +9,47 @@
 
 namespace gnomon::raster::detail {
 
+/// A tile in rows, whatever the kernel's own order. `T` has 32 bits.
+template <class T>
+struct alignas(64) TileInRows {
+    T element[tile_size * tile_pitch];
+
+    /// returns: `own` when the kernel works in rows, else its blocks copied to rows.
+    [[nodiscard]] T const* from(KernelTable const& kernel, T const* own) {
+        if (kernel.to_rows == nullptr) return own;
+        kernel.to_rows(reinterpret_cast<std::uint32_t const*>(own), reinterpret_cast<std::uint32_t*>(element));
+        return element;
+    }
+};
+
+/// Fills a tile's local image from an image's rows.
+template <class T, class Element>
+void load_rows(KernelTable const& kernel, TileJob const& job, ImageView<Element> const& from, T* own) {
+    TileInRows<T> rows;
+    T* const to = kernel.from_rows == nullptr ? own : rows.element;
+    std::int32_t const width = job.x1 - job.x0;
+    for (std::int32_t y = job.y0; y < job.y1; ++y)
+        std::copy_n(from.row(y) + job.x0, width, to + std::ptrdiff_t{y - job.y0} * tile_pitch);
+    if (to == own) return;
+    // Beyond the target's border is whatever is there: never seen.
+    for (std::int32_t y = job.y0; y < job.y1; ++y) {
+        T* const row = to + std::ptrdiff_t{y - job.y0} * tile_pitch;
+        std::fill(row + width, row + tile_size, T{0});
+    }
+    std::fill(to + std::ptrdiff_t{job.y1 - job.y0} * tile_pitch, to + std::ptrdiff_t{tile_size} * tile_pitch, T{0});
+    kernel.from_rows(reinterpret_cast<std::uint32_t const*>(to), reinterpret_cast<std::uint32_t*>(own));
+}
+
 inline void load_tile(LayerPlan const& layer, TileJob const& job, Load load) {
     float const farthest = job.reversed ? 0.0F : job.quantize ? 65535.0F : 1.0F;
     layer.kernel->clear(job, farthest, no_triangle);
     if (load == Load::clear) return;
     DepthTarget const& depth = layer.layer->target;
-    for (std::int32_t y = job.y0; y < job.y1; ++y) {
-        std::ptrdiff_t const row = std::ptrdiff_t{y - job.y0} * tile_pitch;
-        std::int32_t const width = job.x1 - job.x0;
-        if (job.quantize)
-            std::copy_n(depth.unorm16().row(y) + job.x0, width, job.depth + row);
-        else
-            std::copy_n(depth.f32().row(y) + job.x0, width, job.depth + row);
-        if (job.id != nullptr) std::copy_n(layer.layer->triangle.row(y) + job.x0, width, job.id + row);
-    }
+    if (job.quantize)
+        load_rows(*layer.kernel, job, depth.unorm16(), job.depth);
+    else
+        load_rows(*layer.kernel, job, depth.f32(), job.depth);
+    if (job.id != nullptr) load_rows(*layer.kernel, job, layer.layer->triangle, job.id);
 }
 
 /// Copies a tile out; past the caches where the image is too large to be found there again.
@@ -35,6 +62,8 @@ void store_rows(LayerPlan const& layer, TileJob const& job, T const* from, Image
         layer.kernel->stream(rows, from);
         return;
     }
+    TileInRows<T> scratch;
+    from = scratch.from(*layer.kernel, from);
     for (std::int32_t y = job.y0; y < job.y1; ++y, from += tile_pitch)
         std::copy_n(from, job.x1 - job.x0, to.row(y) + job.x0);
 }
@@ -46,8 +75,9 @@ inline void store_tile(LayerPlan const& layer, TileJob const& job) {
         store_rows(layer, job, job.depth, depth.f32());
         return;
     }
-    for (std::int32_t y = job.y0; y < job.y1; ++y) {
-        float const* const row = job.depth + std::ptrdiff_t{y - job.y0} * tile_pitch;
+    TileInRows<float> scratch;
+    float const* row = scratch.from(*layer.kernel, job.depth);
+    for (std::int32_t y = job.y0; y < job.y1; ++y, row += tile_pitch) {
         std::transform(row, row + (job.x1 - job.x0), depth.unorm16().row(y) + job.x0,
                        [](float code) { return static_cast<std::uint16_t>(code); });
     }
@@ -58,8 +88,10 @@ inline void summarize_tile(LayerPlan const& layer, TileJob const& job) {
     DepthPyramid& pyramid = *layer.layer->config.pyramid;
     ImageView<float> const least = pyramid.least(0);
     ImageView<float> const greatest = pyramid.greatest(0);
+    TileInRows<float> scratch;
+    float const* const depth = scratch.from(*layer.kernel, job.depth);
     for (std::int32_t y = job.y0; y < job.y1; y += 8) {
-        SampleRows const rows{job.depth + std::ptrdiff_t{y - job.y0} * tile_pitch, tile_pitch, job.x1 - job.x0,
+        SampleRows const rows{depth + std::ptrdiff_t{y - job.y0} * tile_pitch, tile_pitch, job.x1 - job.x0,
                               std::min(8, job.y1 - y)};
         best_summary().summarize(rows, least.row(y >> 3) + (job.x0 >> 3), greatest.row(y >> 3) + (job.x0 >> 3));
     }

@@ -18,6 +18,9 @@ using oracle::Random;
 using Positions = std::vector<math::vec3>;
 using Indices = std::vector<std::uint32_t>;
 
+/// What must give the same image.
+inline constexpr Kernel every_kernel[] = {Kernel::scalar, Kernel::simd, Kernel::avx2};
+
 struct Canvas {
     std::int32_t width, height;
     std::vector<float> depth;

@@ -77,8 +77,7 @@ TEST_CASE("every pixel of a tessellated square is hit exactly once", "[raster][w
                               random.unit());
         });
         Canvas canvas(48, 40);
-        std::vector<int> const count =
-            hits(canvas, mesh, math::mat4(1.0F), round % 2 == 0 ? Kernel::scalar : Kernel::simd);
+        std::vector<int> const count = hits(canvas, mesh, math::mat4(1.0F), every_kernel[round % 3]);
         CHECK(std::all_of(count.begin(), count.end(), [](int n) { return n == 1; }));
     }
 }
@@ -93,7 +92,7 @@ TEST_CASE("a ground through the near plane and the guard band has no gaps and no
             return math::vec3(3000.0F * (x + spin * y), -height, 3000.0F * (y - spin * x));
         });
         Canvas canvas(48, 40);
-        std::vector<int> const count = hits(canvas, mesh, camera(), round % 2 == 0 ? Kernel::scalar : Kernel::simd);
+        std::vector<int> const count = hits(canvas, mesh, camera(), every_kernel[round % 3]);
         CHECK(*std::max_element(count.begin(), count.end()) == 1);
         // One metre ahead of w = -z is where the image's lower border sees; two rows below the horizon is all ground.
         int missing = 0;
@@ -112,7 +111,7 @@ TEST_CASE("the image is the same for 1, 2 and 7 threads, scalar or simd, and any
     PassStats const& s = reference.stats;
     CHECK(s.triangles == s.bad_index + s.not_finite + s.outside + s.degenerate + s.culled + s.no_sample + s.drawn);
     for (int threads : {1, 2, 7})
-        for (Kernel kernel : {Kernel::scalar, Kernel::simd}) {
+        for (Kernel kernel : every_kernel) {
             core::ThreadExecutor executor(threads);
             Canvas canvas(333, 217);
             canvas.draw(scene.draws(), {.kernel = kernel}, executor);
@@ -199,7 +198,7 @@ TEST_CASE("bad data is left out and counted", "[raster][bad]") {
                               {0, inf, 0.5F}, {3e38F, 0, 0.5F}, {0, 0, -3e38F}};
     Indices const indices{0, 1, 2, 0, 1, 3, 4, 1, 2, 0, 5, 2, 0, 1, 6, 0, 1, 7, 0, 1, 0xFFFFFFFFU, 0, 0, 1, 2, 1};
     Draw draw = draw_of(positions, indices);
-    for (Kernel kernel : {Kernel::scalar, Kernel::simd}) {
+    for (Kernel kernel : every_kernel) {
         Canvas canvas(16, 16);
         canvas.draw({draw}, {.kernel = kernel});
         CHECK(canvas.stats.triangles == 8);
@@ -249,11 +248,13 @@ TEST_CASE("any bits in vertices, matrix and indices give the same image from bot
         if ((round & 8) != 0)
             config.scissor = Rect{random.in(-20, 60), random.in(-20, 60), random.in(0, 60), random.in(0, 90)};
         scalar.draw({draw}, config);
-        config.kernel = Kernel::simd;
-        simd.draw({draw}, config);
-        CAPTURE(round);
-        REQUIRE(scalar.hash() == simd.hash());
-        REQUIRE(scalar.stats == simd.stats);
+        for (Kernel kernel : {Kernel::simd, Kernel::avx2}) {
+            config.kernel = kernel;
+            simd.draw({draw}, config);
+            CAPTURE(round, static_cast<int>(kernel));
+            REQUIRE(scalar.hash() == simd.hash());
+            REQUIRE(scalar.stats == simd.stats);
+        }
         drawn += scalar.stats.drawn;
     }
     CHECK(drawn > 1000);
@@ -314,7 +315,7 @@ TEST_CASE("a 16-bit target holds the nearest codes of the float depths", "[raste
     Mixed const scene(28, 1);
     Positions const positions{{-1, -1, 0.1F}, {1, -1, 0.9F}, {-1, 1, 0.4F}};
     Indices const indices{0, 1, 2};
-    for (Kernel kernel : {Kernel::scalar, Kernel::simd}) {
+    for (Kernel kernel : every_kernel) {
         Canvas canvas(100, 100);
         canvas.draw({draw_of(positions, indices)}, {.kernel = kernel});
         std::vector<std::uint16_t> codes(10'000, 77);
@@ -389,7 +390,7 @@ TEST_CASE("targets of 16384 pixels on a side are covered to their last pixel", "
         Canvas canvas(wide ? max_size_px : 3, wide ? 3 : max_size_px);
         Positions const positions{{-1, -1, 0.5F}, {1, -1, 0.25F}, {-1, 1, 0.125F}, {1, 1, 1.0F}};
         Indices const indices{0, 1, 2, 2, 1, 3};
-        for (Kernel kernel : {Kernel::scalar, Kernel::simd}) {
+        for (Kernel kernel : every_kernel) {
             canvas.draw({draw_of(positions, indices)}, {.kernel = kernel});
             CHECK(canvas.stats.samples_written == 3 * 16384);
             CHECK(std::none_of(canvas.id.begin(), canvas.id.end(), [](std::uint32_t id) { return id == no_triangle; }));
@@ -428,8 +429,7 @@ TEST_CASE("large triangles equal the oracle pixel by pixel", "[raster][size]") {
             positions.push_back(math::vec3(static_cast<float>((v.x + v.residue_x / 4096.0) / 262144.0 - 1.0),
                                            static_cast<float>((v.y + v.residue_y / 4096.0) / 8192.0 - 1.0), v.z));
         }
-        canvas.draw({draw_of(positions, {})},
-                    {.depth = math::Depth::forward, .kernel = i % 2 == 0 ? Kernel::scalar : Kernel::simd});
+        canvas.draw({draw_of(positions, {})}, {.depth = math::Depth::forward, .kernel = every_kernel[i % 3]});
         int wrong = 0;
         for (std::int32_t y = 0; y < 64; ++y)
             for (std::int32_t x = 0; x < 2048; ++x) {

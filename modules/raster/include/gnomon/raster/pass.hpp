@@ -34,7 +34,8 @@ enum class Load : std::uint8_t {
 enum class Kernel : std::uint8_t {
     automatic,  ///< The fastest that this machine runs.
     scalar,     ///< The reference.
-    simd,       ///< The vector kernel, or the reference on a machine that has none.
+    simd,       ///< The widest vector kernel, or the reference on a machine that has none.
+    avx2,       ///< The vector kernel for AVX2, or the reference on a machine that has none.
 };
 
 struct PassConfig {
