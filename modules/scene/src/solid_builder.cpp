@@ -11,7 +11,7 @@ namespace {
 using math::dvec2;
 using math::dvec3;
 
-dvec3 normal_of(std::span<dvec3 const> corners) {
+dvec3 polygon_normal(std::span<dvec3 const> corners) {
     dvec3 sum(0.0);
     for (std::size_t i = 2; i < corners.size(); ++i)
         sum += glm::cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -28,7 +28,7 @@ dvec3 in_plane(Plane plane, dvec2 const& p, double along) noexcept {
     return {};
 }
 
-double area(dvec2 const& a, dvec2 const& b, dvec2 const& c) noexcept {
+double corner_area(dvec2 const& a, dvec2 const& b, dvec2 const& c) noexcept {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -49,11 +49,11 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<dvec2 const> pol
         dvec2 const a = polygon[ear[0]];
         dvec2 const b = polygon[ear[1]];
         dvec2 const c = polygon[ear[2]];
-        if (!(area(a, b, c) > 0.0)) return false;
+        if (!(corner_area(a, b, c) > 0.0)) return false;
         for (std::uint32_t const other : left) {
             if (other == ear[0] || other == ear[1] || other == ear[2]) continue;
             dvec2 const p = polygon[other];
-            if (area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0) return false;
+            if (corner_area(a, b, p) >= 0.0 && corner_area(b, c, p) >= 0.0 && corner_area(c, a, p) >= 0.0) return false;
         }
         return true;
     };
@@ -67,14 +67,14 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<dvec2 const> pol
     return triangles;
 }
 
-void SolidBuilder::place(Placement const& placement) noexcept {
-    placement_ = placement;
-    turn_ = sin_cos(placement.turns);
+void SolidBuilder::place(Stand const& stand) noexcept {
+    stand_ = stand;
+    turn_ = sin_cos(stand.turns);
 }
 
 dvec3 SolidBuilder::placed(dvec3 const& p) const noexcept {
-    dvec3 const s = p * placement_.scale;
-    return placement_.at + dvec3(s.x * turn_.cos + s.z * turn_.sin, s.y, s.z * turn_.cos - s.x * turn_.sin);
+    dvec3 const s = p * stand_.scale;
+    return stand_.at + dvec3(s.x * turn_.cos + s.z * turn_.sin, s.y, s.z * turn_.cos - s.x * turn_.sin);
 }
 
 Primitive& SolidBuilder::room_for(std::size_t triangles, std::uint32_t material) {
@@ -92,7 +92,7 @@ void SolidBuilder::polygon(std::span<dvec3 const> corners, std::uint32_t materia
     Primitive& out = room_for(corners.size() - 2, material);
     std::vector<dvec3> points;
     for (dvec3 const& corner : corners) points.push_back(placed(corner));
-    math::vec3 const normal = math::to_float(normal_of(points));
+    math::vec3 const normal = math::to_float(polygon_normal(points));
     auto const base = static_cast<std::uint32_t>(out.positions.size());
     for (dvec3 const& point : points) {
         out.positions.push_back(math::to_float(point));
@@ -212,18 +212,18 @@ Mesh SolidBuilder::take() {
     return mesh;
 }
 
-Instance placed_instance(std::string name, std::uint32_t mesh, Placement const& placement) {
+Instance placed_instance(std::string name, std::uint32_t mesh, Stand const& stand) {
     Instance instance;
     instance.name = std::move(name);
     instance.mesh = mesh;
-    SinCos const t = sin_cos(placement.turns);
+    SinCos const t = sin_cos(stand.turns);
     math::dmat4& m = instance.world_from_mesh;
-    m[0][0] = t.cos * placement.scale;
-    m[0][2] = -t.sin * placement.scale;
-    m[1][1] = placement.scale;
-    m[2][0] = t.sin * placement.scale;
-    m[2][2] = t.cos * placement.scale;
-    for (math::axis_t axis = 0; axis < 3; ++axis) m[3][axis] = placement.at[axis];
+    m[0][0] = t.cos * stand.scale;
+    m[0][2] = -t.sin * stand.scale;
+    m[1][1] = stand.scale;
+    m[2][0] = t.sin * stand.scale;
+    m[2][2] = t.cos * stand.scale;
+    for (math::axis_t axis = 0; axis < 3; ++axis) m[3][axis] = stand.at[axis];
     return instance;
 }
 

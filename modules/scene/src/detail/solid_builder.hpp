@@ -17,7 +17,7 @@
 namespace gnomon::scene::detail {
 
 /// Where the solids that follow stand: scaled, turned about the vertical axis, then moved.
-struct Placement {
+struct Stand {
     math::dvec3 at{0.0, 0.0, 0.0};
     double turns = 0.0;
     double scale = 1.0;
@@ -48,7 +48,7 @@ enum class Plane : std::uint8_t {
 class SolidBuilder {
 public:
     /// Turns and scales are relative to the mesh, not to the placement before.
-    void place(Placement const& placement) noexcept;
+    void place(Stand const& stand) noexcept;
 
     /// A flat convex polygon, counter-clockwise from outside.
     void polygon(std::span<math::dvec3 const> corners, std::uint32_t material);
@@ -81,15 +81,15 @@ private:
     Primitive& room_for(std::size_t triangles, std::uint32_t material);
     void caps(Plane plane, std::span<math::dvec2 const> profile, std::array<double, 2> from_to, std::uint32_t material);
 
-    Placement placement_;
+    Stand stand_;
     SinCos turn_;
     Mesh mesh_;
     std::vector<std::uint32_t> open_;  ///< The primitive that each material still grows in, or `none`.
     std::uint64_t triangles_ = 0;
 };
 
-/// An instance of `mesh` that stands as `placement` says.
-Instance placed_instance(std::string name, std::uint32_t mesh, Placement const& placement);
+/// An instance of `mesh` that stands as `stand` says.
+Instance placed_instance(std::string name, std::uint32_t mesh, Stand const& stand);
 
 /// Splits a simple polygon, counter-clockwise, into triangles of its corners by clipping ears.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<math::dvec2 const> polygon);
