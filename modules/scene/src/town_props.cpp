@@ -179,7 +179,7 @@ public:
         std::uint32_t cars_so_far = 0;
         for (std::uint32_t i = 0; i < people + cars; ++i) {
             bool const is_car = (i + 1) * cars / (people + cars) > cars_so_far;
-            std::vector<Stop> const way = is_car ? drive(cars_so_far) : walk(i - cars_so_far);
+            std::vector<Waypoint> const way = is_car ? drive(cars_so_far) : walk(i - cars_so_far);
             std::string const name = is_car ? "car" : "person";
             std::uint32_t const mesh = (is_car ? car : person)[random_.below(variants)];
             cars_so_far += is_car ? 1 : 0;
@@ -262,7 +262,7 @@ private:
     }
 
     /// Up and down the pavement along one side of a block.
-    std::vector<Stop> walk(std::uint32_t index) {
+    std::vector<Waypoint> walk(std::uint32_t index) {
         bool const far = index % 2 == 0;
         double const side = (far ? town_pitch_z_m - 5.0 : 5.0) + random_.uniform(-0.25, 0.25);
         double const from = random_.uniform(7.0, 66.0);
@@ -270,7 +270,7 @@ private:
         constexpr double walk_s = town_loop_s * 0.5 - 1.0;
         constexpr int steps = 4;
         constexpr double length_m = 22.0;
-        std::vector<Stop> stops;
+        std::vector<Waypoint> stops;
         for (int i = 0; i <= steps; ++i)
             stops.push_back({walk_s * i / steps, on_ground(block_point(block, {from + length_m * i / steps, side})), 0.0});
         stops.push_back({walk_s + 0.5, stops.back().at, 0.25});
@@ -282,14 +282,14 @@ private:
     }
 
     /// Once round a block in its own lane, the block on the right, at 8 m/s; no lane is shared between blocks.
-    std::vector<Stop> drive(std::uint32_t index) {
+    std::vector<Waypoint> drive(std::uint32_t index) {
         constexpr std::uint32_t per_block = cars / blocks;
         constexpr int pieces = 40;
         double const start = static_cast<double>(index % per_block) / per_block + 0.02 * (index / per_block % 7);
-        std::vector<Stop> stops;
+        std::vector<Waypoint> stops;
         for (int i = 0; i <= pieces; ++i) {
             double const part = i == pieces ? start : start + static_cast<double>(i) / pieces;
-            Stop stop = on_lane(index / per_block, part - std::floor(part));
+            Waypoint stop = on_lane(index / per_block, part - std::floor(part));
             stop.time_s = town_loop_s * i / pieces;
             stops.push_back(stop);
         }
@@ -297,7 +297,7 @@ private:
     }
 
     /// A place on a block's lane, 0 to 1 once round, corners cut by quarter circles of 4 m.
-    [[nodiscard]] Stop on_lane(std::uint32_t block, double part) const {
+    [[nodiscard]] Waypoint on_lane(std::uint32_t block, double part) const {
         constexpr double radius = 4.0;
         dvec2 const lo(lane_m);
         dvec2 const hi(town_pitch_x_m - lane_m, town_pitch_z_m - lane_m);

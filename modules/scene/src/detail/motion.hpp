@@ -12,7 +12,7 @@
 namespace gnomon::scene::detail {
 
 /// Where a thing is at a time, turned about the vertical axis.
-struct Stop {
+struct Waypoint {
     double time_s = 0.0;
     math::dvec3 at{0.0, 0.0, 0.0};
     double turns = 0.0;
@@ -42,7 +42,7 @@ inline void add_key(AnimationChannel& channel, double time_s, std::initializer_l
 /// A node that goes by straight lines through `stops`, the last of which is where and how the first was.
 ///
 /// expects: at least two stops, times rising from 0; neighbouring turns less than half a turn apart.
-inline std::uint32_t add_mover(Scene& scene, std::string name, std::vector<Stop> const& stops) {
+inline std::uint32_t add_mover(Scene& scene, std::string name, std::vector<Waypoint> const& stops) {
     auto const id = static_cast<std::uint32_t>(scene.nodes.size());
     Node node;
     node.name = std::move(name);
@@ -50,9 +50,9 @@ inline std::uint32_t add_mover(Scene& scene, std::string name, std::vector<Stop>
     node.rotation = math::dvec4(math::vec4(upright_rotation(stops.front().turns)));
     scene.nodes.push_back(std::move(node));
     AnimationChannel& moves = add_channel(scene, id, AnimationPath::translation);
-    for (Stop const& stop : stops) add_key(moves, stop.time_s, {stop.at.x, stop.at.y, stop.at.z});
+    for (Waypoint const& stop : stops) add_key(moves, stop.time_s, {stop.at.x, stop.at.y, stop.at.z});
     AnimationChannel& turns = add_channel(scene, id, AnimationPath::rotation);
-    for (Stop const& stop : stops) {
+    for (Waypoint const& stop : stops) {
         math::dvec4 const q = upright_rotation(stop.turns);
         add_key(turns, stop.time_s, {q.x, q.y, q.z, q.w});
     }
