@@ -8,7 +8,8 @@ TileWorkspace::TileWorkspace(TileWorkspace&&) noexcept = default;
 TileWorkspace& TileWorkspace::operator=(TileWorkspace&&) noexcept = default;
 
 std::size_t TileWorkspace::size_bytes() const noexcept {
-    return state_->plan.size_bytes() + state_->conservative.size_bytes();
+    return state_->plan.size_bytes() + state_->conservative.size_bytes() + state_->ortho.size_bytes() +
+           state_->ends.capacity() * sizeof(std::size_t);
 }
 
 }  // namespace gnomon::raster

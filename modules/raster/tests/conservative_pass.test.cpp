@@ -303,7 +303,7 @@ TEST_CASE("a conservative pass counts bad data, draws instances, and is the same
     ConservativeConfig const config{.scissor = Rect{10, 20, 200, 150}};
     auto const stats = conservative_pass({&draw, 1}, make_image(one.data(), 300, 200), config, workspace, serial);
     CHECK(stats == conservative_pass({&draw, 1}, make_image(other.data(), 300, 200), config, workspace, pool));
-    CHECK(one == other);
+    CHECK((one == other));
     CHECK(stats.triangles == 12'000);
     CHECK(stats.bad_index == 2);
     CHECK(stats.not_finite == 2);

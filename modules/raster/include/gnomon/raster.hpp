@@ -8,6 +8,7 @@
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/instances.hpp>
 #include <gnomon/raster/layers.hpp>
+#include <gnomon/raster/ortho.hpp>
 #include <gnomon/raster/pass.hpp>
 #include <gnomon/raster/sample_query.hpp>
 #include <gnomon/raster/target.hpp>
