@@ -1,7 +1,6 @@
 // The depth pass on the three cities, from the sun and from the street, one thread. Milliseconds per pass, clear
 // included.
 
-#include <gnomon/core/executor_tbb.hpp>
 #include <gnomon/raster.hpp>
 
 #include <benchmark/benchmark.h>
@@ -12,7 +11,7 @@ namespace {
 
 using namespace gnomon;
 
-void depth_of_city(benchmark::State& state, raster::Kernel kernel, int threads) {
+void depth_of_city(benchmark::State& state, raster::Kernel kernel) {
     bench::City const city = bench::make_city(static_cast<int>(state.range(0)));
     auto const size = static_cast<std::int32_t>(state.range(2));
     math::View const view = bench::make_view(state.range(1) == 0, size);
@@ -23,12 +22,10 @@ void depth_of_city(benchmark::State& state, raster::Kernel kernel, int threads) 
     std::vector<float> depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
     raster::Workspace workspace;
     core::SerialExecutor serial;
-    core::TbbExecutor pool(threads);
     raster::PassStats stats;
     for (auto _ : state)
         stats = raster::depth_pass({&draw, 1}, raster::make_image(depth.data(), size, size),
-                                   {.depth = math::Depth::forward, .kernel = kernel}, workspace,
-                                   threads == 1 ? core::ExecutorRef(serial) : core::ExecutorRef(pool));
+                                   {.depth = math::Depth::forward, .kernel = kernel}, workspace, serial);
     state.counters["drawn"] = static_cast<double>(stats.drawn);
     state.counters["no_sample"] = static_cast<double>(stats.no_sample);
     state.counters["Msamples"] = static_cast<double>(stats.samples_written) * 1e-6;
@@ -41,8 +38,8 @@ void arguments(benchmark::internal::Benchmark* b) {
         ->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(depth_of_city, automatic, raster::Kernel::automatic, 1)->Apply(arguments);
-BENCHMARK_CAPTURE(depth_of_city, two_threads, raster::Kernel::automatic, 2)->Apply(arguments)->UseRealTime();
-BENCHMARK_CAPTURE(depth_of_city, scalar, raster::Kernel::scalar, 1)->Apply(arguments);
+BENCHMARK_CAPTURE(depth_of_city, automatic, raster::Kernel::automatic)->Apply(arguments);
+BENCHMARK_CAPTURE(depth_of_city, avx2, raster::Kernel::avx2)->Apply(arguments);
+BENCHMARK_CAPTURE(depth_of_city, scalar, raster::Kernel::scalar)->Apply(arguments);
 
 }  // namespace

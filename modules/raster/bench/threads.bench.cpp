@@ -1,0 +1,101 @@
+// One thread against two, interleaved: medians of nine.
+//
+// `wall_ratio` is what the clock on the wall shows. It says little on a machine whose cores are busy with other work,
+// so `path_ratio` compares CPU times: one thread's, over the two threads' critical path. That path is the main thread's
+// CPU time outside of parallel loops, and for each loop that of the busier thread. It counts what the pass itself does
+// not share (serial parts, uneven shares, caches and memory that both fight for), not the cores that others took.
+
+#include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/raster.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "city.hpp"
+#include "clocks.hpp"
+
+namespace {
+
+using namespace gnomon;
+
+/// Adds up the CPU time of the busier thread of each loop.
+class MeteredExecutor {
+  public:
+    explicit MeteredExecutor(core::TbbExecutor const& pool) : pool_(pool) {}
+
+    template <class F>
+    void parallel_for(std::size_t n, std::size_t grain, F&& f) {
+        std::map<std::thread::id, double> busy;
+        std::mutex mutex;
+        double const start = bench::now_ms(CLOCK_THREAD_CPUTIME_ID);
+        pool_.parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+            double const from = bench::now_ms(CLOCK_THREAD_CPUTIME_ID);
+            f(begin, end);
+            double const spent = bench::now_ms(CLOCK_THREAD_CPUTIME_ID) - from;
+            std::lock_guard const lock(mutex);
+            busy[std::this_thread::get_id()] += spent;
+        });
+        in_loops_ += bench::now_ms(CLOCK_THREAD_CPUTIME_ID) - start;
+        double most = 0.0;
+        for (auto const& [thread, spent] : busy) most = std::max(most, spent);
+        path_ += most;
+    }
+
+    /// Of a run that took the main thread `main_ms` of CPU time in all.
+    [[nodiscard]] double critical_path_ms(double main_ms) const { return main_ms - in_loops_ + path_; }
+
+  private:
+    core::TbbExecutor const& pool_;
+    double in_loops_ = 0.0;
+    double path_ = 0.0;
+};
+
+void two_threads(benchmark::State& state) {
+    bench::City const city = bench::make_city(static_cast<int>(state.range(0)));
+    auto const size = static_cast<std::int32_t>(state.range(2));
+    math::View const view = bench::make_view(state.range(1) == 0, size);
+    raster::Draw const draw{.positions = std::span<math::vec3 const>(city.positions),
+                            .indices = std::span<std::uint32_t const>(city.indices),
+                            .origin = math::to_float(view.eye_m),
+                            .clip_from_relative = math::clip_from_relative(view)};
+    std::vector<float> depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    raster::Workspace workspace;
+    auto const pass = [&](core::ExecutorRef executor) {
+        raster::depth_pass({&draw, 1}, raster::make_image(depth.data(), size, size), {.depth = math::Depth::forward},
+                           workspace, executor);
+    };
+    core::SerialExecutor serial;
+    core::TbbExecutor const pool(2);
+    pass(serial);
+    pass(pool);
+    bench::Times one;
+    bench::Times two;
+    std::vector<double> path;
+    for (auto _ : state) {
+        one.measure([&] { pass(serial); });
+        two.measure([&] { pass(pool); });
+        MeteredExecutor metered(pool);
+        double const start = bench::now_ms(CLOCK_THREAD_CPUTIME_ID);
+        pass(metered);
+        path.push_back(metered.critical_path_ms(bench::now_ms(CLOCK_THREAD_CPUTIME_ID) - start));
+    }
+    state.counters["one_ms"] = bench::median(one.cpu);
+    state.counters["path_ms"] = bench::median(path);
+    state.counters["path_ratio"] = bench::median(one.cpu) / bench::median(path);
+    state.counters["wall_ratio"] = bench::median(one.wall) / bench::median(two.wall);
+    state.counters["best_wall_ratio"] =
+        *std::min_element(one.wall.begin(), one.wall.end()) / *std::min_element(two.wall.begin(), two.wall.end());
+}
+
+BENCHMARK(two_threads)
+    ->ArgNames({"city", "persp", "px"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1}, {1024, 2048, 4096}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(9);
+
+}  // namespace
