@@ -48,6 +48,12 @@ struct BinGrid {
 /// A record is anything with bounds in pixels: min_x, min_y, max_x, max_y.
 template <class R, class F>
 inline void for_each_bin(BinGrid const& grid, R const& r, F&& f) {
+    std::int32_t const tile_x = (r.min_x + grid.shift_x) >> tile_shift;
+    std::int32_t const tile_y = r.min_y >> tile_shift;
+    if (((r.max_x + grid.shift_x) >> tile_shift) == tile_x && (r.max_y >> tile_shift) == tile_y) {  // Most do.
+        f(static_cast<std::uint32_t>(tile_y) * grid.width[0] + static_cast<std::uint32_t>(tile_x));
+        return;
+    }
     int level = 0;
     std::uint32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     for (;; ++level) {

@@ -225,7 +225,9 @@ class Pass {
 
     void draw_tiles() {
         std::uint64_t* const written = state_.written.fit(tile_count_);
-        executor_.parallel_for(tile_count_, 4, [&](std::size_t begin, std::size_t end) {
+        // Work gathers in few tiles: along the horizon of a street, say. They must not end up in one range.
+        std::size_t const grain = std::clamp<std::size_t>(tile_count_ / 1024, 1, 4);
+        executor_.parallel_for(tile_count_, grain, [&](std::size_t begin, std::size_t end) {
             auto const after = std::upper_bound(state_.batches.begin(), state_.batches.end(), begin,
                                                 [](std::size_t t, LayerBatch const& b) { return t < b.first_tile; });
             auto l = static_cast<std::size_t>(after - state_.batches.begin()) - (begin < end ? 1U : 0U);
