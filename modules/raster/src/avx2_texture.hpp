@@ -81,6 +81,55 @@ GNOMON_AVX2_INLINE __m256d texels_x4(math::AlphaTexture const& texture, __m128i 
     return _mm256_loadu_pd(alpha);
 }
 
+/// Corner `index` in clip space: x, y, w, 0.
+GNOMON_AVX2_INLINE __m256d to_clip_xyw(MaskedDraw const& draw, std::size_t index) {
+    VertexJob const& job = *draw.vertex;
+    float position[3];
+    __builtin_memcpy(position, job.positions + index * job.stride, sizeof position);
+    __m128 clip = _mm_mul_ps(_mm_loadu_ps(draw.column[0]), _mm_set1_ps(position[0] - job.origin[0]));
+    for (int k = 1; k < 3; ++k)
+        clip = _mm_add_ps(clip, _mm_mul_ps(_mm_loadu_ps(draw.column[k]), _mm_set1_ps(position[k] - job.origin[k])));
+    return _mm256_cvtps_pd(_mm_add_ps(clip, _mm_loadu_ps(draw.column[3])));
+}
+
+GNOMON_AVX2_INLINE __m256d cross(__m256d p, __m256d q) {
+    constexpr int yzx = 0b11'00'10'01;
+    constexpr int zxy = 0b11'01'00'10;
+    return _mm256_sub_pd(_mm256_mul_pd(_mm256_permute4x64_pd(p, yzx), _mm256_permute4x64_pd(q, zxy)),
+                         _mm256_mul_pd(_mm256_permute4x64_pd(p, zxy), _mm256_permute4x64_pd(q, yzx)));
+}
+
+/// `make_texture_plane`, the three numbers of a sum side by side.
+GNOMON_AVX2_INLINE TexturePlane make_texture_plane_x4(MaskedDraw const& draw, std::uint32_t triangle) {
+    __m256d clip[3];
+    math::vec2 uv[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::size_t const at = std::size_t{triangle} * 3 + i;
+        std::size_t const index = draw.indices.empty() ? at : draw.indices[at];
+        clip[i] = to_clip_xyw(draw, index);
+        uv[i] = draw.test->uv[index];
+    }
+    __m256d const zero = _mm256_setzero_pd();
+    __m256d sum[3] = {zero, zero, zero};  // of w, u, v
+    for (int i = 0; i < 3; ++i) {
+        __m256d const weight = cross(clip[(i + 1) % 3], clip[(i + 2) % 3]);
+        sum[0] = _mm256_add_pd(sum[0], weight);
+        sum[1] = _mm256_add_pd(sum[1], _mm256_mul_pd(weight, all_of(static_cast<double>(uv[i].x))));
+        sum[2] = _mm256_add_pd(sum[2], _mm256_mul_pd(weight, all_of(static_cast<double>(uv[i].y))));
+    }
+    __m256d const scale = _mm256_setr_pd(draw.scale_x, draw.scale_y, 0.0, 0.0);
+    __m256d const shift = _mm256_setr_pd(draw.shift_x, draw.shift_y, 1.0, 0.0);
+    Linear made[3];
+    for (int i = 0; i < 3; ++i) {
+        double slope[4];
+        double term[4];
+        _mm256_storeu_pd(slope, _mm256_mul_pd(sum[i], scale));
+        _mm256_storeu_pd(term, _mm256_mul_pd(sum[i], shift));
+        made[i] = {slope[0], slope[1], (term[0] + term[1]) + term[2]};
+    }
+    return {made[0], made[1], made[2]};
+}
+
 /// The alpha test of one triangle's samples.
 struct Texture4 {
     TexturePlane plane;
@@ -89,8 +138,8 @@ struct Texture4 {
     bool uniform_w;    // As in an orthographic view.
     double inverse_w;  // Where it is.
 
-    void set(MaskedDraw const& draw, std::uint32_t triangle) {
-        plane = make_texture_plane(draw, triangle);
+    GNOMON_AVX2_INLINE void set(MaskedDraw const& draw, std::uint32_t triangle) {
+        plane = make_texture_plane_x4(draw, triangle);
         test = draw.test;
         map = draw.map;
         uniform_w = plane.w.dx == 0.0 && plane.w.dy == 0.0;

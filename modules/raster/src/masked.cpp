@@ -41,8 +41,10 @@ CornerWeights make_corner_weights(MaskedDraw const& draw, std::uint32_t triangle
 
 MaskedDraw make_masked_draw(AlphaTest const& test, VertexJob const& vertex, IndexSpan indices,
                             std::uint32_t id_base) noexcept {
-    MaskedDraw made{&test, nullptr, &vertex, indices, id_base, 0.0, 0.0, 0.0, 0.0};
+    MaskedDraw made{&test, nullptr, &vertex, indices, id_base, 0.0, 0.0, 0.0, 0.0, {}};
     if (test.map != nullptr && test.map->is_of(test)) made.map = test.map;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r) made.column[c][r] = vertex.row[r == 2 ? 3 : r][c];
     made.scale_x = 1.0 / static_cast<double>(vertex.half_width);
     made.scale_y = 1.0 / static_cast<double>(vertex.half_height);
     made.shift_x = (0.5 - vertex.offset_x / 256.0) * made.scale_x - 1.0;

@@ -18,6 +18,7 @@ struct MaskedDraw {
     IndexSpan indices;
     std::uint32_t id_base;
     double scale_x, scale_y, shift_x, shift_y;  // From a pixel's number to normalized device space at its centre.
+    float column[4][4];                         // The matrix by columns, of rows x, y and w; the rest is 0.
 };
 
 /// expects: `is_complete(test, positions)`.
