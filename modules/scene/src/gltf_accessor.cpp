@@ -32,6 +32,7 @@ int component_count(int type) noexcept {
         case TINYGLTF_TYPE_VEC2: return 2;
         case TINYGLTF_TYPE_VEC3: return 3;
         case TINYGLTF_TYPE_VEC4: return 4;
+        case TINYGLTF_TYPE_MAT4: return 16;
         default: return 0;
     }
 }
@@ -135,9 +136,10 @@ float Accessor::at(std::size_t i, int c) const noexcept {
     }
 }
 
-std::uint32_t Accessor::index_at(std::size_t i) const noexcept {
-    std::byte const* const at = element(i);
+std::uint32_t Accessor::whole_at(std::size_t i, int c) const noexcept {
+    std::byte const* at = element(i);
     if (at == nullptr) return 0;
+    at += static_cast<std::size_t>(c) * component_bytes(component_type);
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return load_as<std::uint8_t>(at);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load_as<std::uint16_t>(at);
@@ -158,7 +160,7 @@ Accessor make_accessor(Document& document, int index) {
     out.element_bytes = component_bytes(in.componentType) * static_cast<std::size_t>(out.components);
     if (component_bytes(in.componentType) == 0)
         bad_accessor(index, "has component type " + std::to_string(in.componentType) + ", which is none of glTF's");
-    if (out.components == 0) bad_accessor(index, "holds matrices where numbers or vectors belong");
+    if (out.components == 0) bad_accessor(index, "holds matrices of a size that is not read here");
     if (in.bufferView >= 0)
         add_dense(document, in, index, out);
     else if (in.count > document.config.limits.max_zero_elements)

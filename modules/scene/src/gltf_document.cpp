@@ -110,6 +110,9 @@ void Document::parse(std::string_view json) {
         fail(SceneError::malformed, "the file is not valid glTF (" + one_line(error) + "); export it again");
     if (!model.asset.version.starts_with("2."))
         fail(SceneError::not_gltf, "the file is glTF " + quoted(model.asset.version) + "; export it as version 2.0");
+    // A channel without a node moves nothing that is read here; the parser leaves it out with this complaint.
+    for (std::size_t at = 0; (at = error.find("field is missing in animation.channels", at)) != std::string::npos; ++at)
+        ++notes.dropped_channels;
     check_extensions();
     static tinygltf::Value const nothing;
     tinygltf::Value const* const buffers = member(model.extras, "buffers");
@@ -126,7 +129,6 @@ void Document::check_extensions() {
                                                         ", which is not read here; export it without that");
         if (!read) warn("The extension " + quoted(name) + " is left out: surfaces may look plainer.");
     }
-    if (!model.skins.empty()) warn("Skins are not applied: the scene stands in its rest pose.");
 }
 
 void Document::list_images(tinygltf::Value const& list) {
@@ -210,6 +212,14 @@ std::span<std::byte const> Document::view_bytes(std::uint64_t view) const {
 
 void Document::warn(std::string sentence) {
     if (notes.warnings.size() < config.limits.max_warnings) notes.warnings.push_back(std::move(sentence));
+}
+
+void Document::charge_motion(std::uint64_t count) {
+    motion_ += count;
+    if (motion_ > config.limits.max_motion_values)
+        fail(SceneError::over_limit, "the clips, skins and morph weights hold more than " +
+                                         std::to_string(config.limits.max_motion_values) +
+                                         " numbers; simplify them or raise max_motion_values");
 }
 
 void Document::charge_elements(std::uint64_t count) {

@@ -50,17 +50,11 @@ public:
         choose_vertices(out);
         read_vertices(out);
         drop_non_finite(out);
-        if (!in_.targets.empty() && !warned_of_morphs(document_)) document_.warn("Morph targets are not applied.");
         document_.triangles += out.indices.size() / 3;
         return !out.indices.empty();
     }
 
 private:
-    static bool warned_of_morphs(Document const& document) {
-        auto const& warnings = document.notes.warnings;
-        return std::find(warnings.begin(), warnings.end(), "Morph targets are not applied.") != warnings.end();
-    }
-
     void need_components(Accessor const& a, int components, char const* name) const {
         if (a.components != components)
             fail(SceneError::malformed, where_ + "'s " + name + " has " + std::to_string(a.components) +
@@ -181,6 +175,9 @@ private:
         for (std::uint32_t v : chosen_) out.positions.push_back(read_vec3(positions_, v));
         read_uv("TEXCOORD_0", out.uv0);
         read_uv("TEXCOORD_1", out.uv1);
+        VertexSource const source{document_, in_, where_, positions_.count, chosen_};
+        read_influences(source, out);
+        read_morph_targets(source, out);
         Accessor normals;
         if (find_attribute("NORMAL", 3, normals))
             read_normals(normals, out);
@@ -213,6 +210,7 @@ private:
         document_.charge_elements(out.indices.size());
         Primitive flat;
         flat.material = out.material;
+        expand_motion(out, flat);
         for (std::size_t i = 0; i + 2 < out.indices.size(); i += 3) {
             vec3 const n = face_normal(out.positions[out.indices[i]], out.positions[out.indices[i + 1]],
                                        out.positions[out.indices[i + 2]]);
@@ -226,6 +224,21 @@ private:
             }
         }
         out = std::move(flat);
+    }
+
+    /// The joints and morph targets of each corner's vertex. The targets' normals belong to smooth ones and are left out.
+    void expand_motion(Primitive const& in, Primitive& flat) {
+        document_.charge_elements(in.indices.size() * (in.influences / 4 + in.morph_targets.size()));
+        flat.influences = in.influences;
+        flat.morph_targets.resize(in.morph_targets.size());
+        for (std::uint32_t const v : in.indices)
+            for (std::size_t k = v * std::size_t{in.influences}; k < (v + std::size_t{1}) * in.influences; ++k) {
+                flat.joints.push_back(in.joints[k]);
+                flat.joint_weights.push_back(in.joint_weights[k]);
+            }
+        for (std::size_t t = 0; t < in.morph_targets.size(); ++t)
+            if (!in.morph_targets[t].positions.empty())
+                for (std::uint32_t const v : in.indices) flat.morph_targets[t].positions.push_back(in.morph_targets[t].positions[v]);
     }
 
     void drop_non_finite(Primitive& out) {
@@ -266,6 +279,11 @@ std::vector<std::uint32_t> load_meshes(Document& document, Scene& scene) {
                 mesh.primitives.push_back(std::move(primitive));
         }
         if (mesh.primitives.empty()) continue;
+        for (Primitive const& p : mesh.primitives)
+            if (p.morph_targets.size() != count_morph_targets(mesh))
+                fail(SceneError::malformed, item("mesh", m) + " has primitives of " + std::to_string(p.morph_targets.size()) + " and of " +
+                                                std::to_string(count_morph_targets(mesh)) + " morph targets; export the file again");
+        mesh.weights = read_default_weights(document, in.weights, count_morph_targets(mesh), item("mesh", m));
         mesh_of[m] = static_cast<std::uint32_t>(scene.meshes.size());
         scene.meshes.push_back(std::move(mesh));
     }

@@ -28,12 +28,21 @@ public:
         }
     }
 
-    void run() {
+    NodeMap run() {
         find_parents();
         place_all();
         mark_reached();
-        for (std::size_t i = 0; i < nodes_.size(); ++i)
+        map_.skin_of.assign(document_.model.skins.size(), none);
+        map_.node_of.assign(nodes_.size(), none);
+        mark_needed();
+        keep_needed();
+        find_carriers();
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            map_.first_instance.push_back(static_cast<std::uint32_t>(scene_.instances.size()));
             if (reached_[i]) add(i);
+        }
+        map_.first_instance.push_back(static_cast<std::uint32_t>(scene_.instances.size()));
+        return std::move(map_);
     }
 
 private:
@@ -56,23 +65,26 @@ private:
             }
     }
 
-    [[nodiscard]] dmat4 local(std::size_t i) const {
+    [[nodiscard]] dmat4 local(std::size_t i) const { return local_of(without_name(i)); }
+
+    [[nodiscard]] Node without_name(std::size_t i) const {
         tinygltf::Node const& n = nodes_[i];
+        Node out;
         if (!n.matrix.empty()) {
             if (n.matrix.size() != 16) bad_node(i, "has a matrix of " + std::to_string(n.matrix.size()) + " numbers");
             dmat4 m(1.0);
             for (int k = 0; k < 16; ++k)
                 if (k % 4 != 3) m[k / 4][k % 4] = n.matrix[static_cast<std::size_t>(k)];
-            return m;
+            out.matrix = m;
+            return out;
         }
         auto const wrong = [](std::vector<double> const& v, std::size_t size) { return !v.empty() && v.size() != size; };
         if (wrong(n.translation, 3) || wrong(n.rotation, 4) || wrong(n.scale, 3))
             bad_node(i, "has a translation, rotation or scale of the wrong length");
-        dvec3 const t = n.translation.empty() ? dvec3(0.0) : dvec3(n.translation[0], n.translation[1], n.translation[2]);
-        dvec3 const s = n.scale.empty() ? dvec3(1.0) : dvec3(n.scale[0], n.scale[1], n.scale[2]);
-        dvec4 const r = n.rotation.empty() ? dvec4(0.0, 0.0, 0.0, 1.0)
-                                           : dvec4(n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]);
-        return from_trs({t, r, s});
+        if (!n.translation.empty()) out.translation = dvec3(n.translation[0], n.translation[1], n.translation[2]);
+        if (!n.rotation.empty()) out.rotation = dvec4(n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]);
+        if (!n.scale.empty()) out.scale = dvec3(n.scale[0], n.scale[1], n.scale[2]);
+        return out;
     }
 
     /// From the roots down with a list of its own, so that no depth of hierarchy is too deep for the stack.
@@ -94,6 +106,7 @@ private:
                                                  std::to_string(document_.config.limits.max_depth) +
                                                  " nodes; flatten the hierarchy or raise max_depth");
             placed[visit.node] = true;
+            downward_.push_back(visit.node);
             std::uint32_t const parent = parent_[visit.node];
             world_[visit.node] = parent == none ? local(visit.node) : multiplied(world_[parent], local(visit.node));
             if (!all_finite(world_[visit.node])) bad_node(visit.node, "has a transform too large for a double");
@@ -105,7 +118,8 @@ private:
 
     [[nodiscard]] std::vector<int> roots() {
         auto const& scenes = document_.model.scenes;
-        std::uint32_t wanted = document_.config.scene_index;
+        for (tinygltf::Scene const& s : scenes) scene_.file_scenes.push_back(s.name);
+        std::uint32_t wanted = document_.config.scene_name.empty() ? document_.config.scene_index : scene_named();
         int const own = document_.model.defaultScene;
         if (wanted == none && own >= 0) wanted = static_cast<std::uint32_t>(own);
         if (wanted == none && !scenes.empty()) wanted = 0;
@@ -121,6 +135,116 @@ private:
         for (std::size_t i = 0; i < nodes_.size(); ++i)
             if (parent_[i] == none) all.push_back(static_cast<int>(i));
         return all;
+    }
+
+    [[nodiscard]] std::uint32_t scene_named() const {
+        std::string const& name = document_.config.scene_name;
+        auto const found = std::find(scene_.file_scenes.begin(), scene_.file_scenes.end(), name);
+        if (found != scene_.file_scenes.end()) return static_cast<std::uint32_t>(found - scene_.file_scenes.begin());
+        std::string list;
+        for (std::size_t i = 0; i < scene_.file_scenes.size() && i < 4; ++i) list += (i == 0 ? "" : ", ") + quoted(scene_.file_scenes[i]);
+        fail(SceneError::bad_config, "the scene " + quoted(name) + " is asked for and the file's " + std::to_string(scene_.file_scenes.size()) +
+                                         " are " + (list.empty() ? "none" : list) + "; ask for one that exists");
+    }
+
+    /// A node whose place can change, or that says so itself: those written here keep the scene's own nodes that way.
+    [[nodiscard]] bool is_kept(std::size_t i) const {
+        tinygltf::Value const* const mark = member(nodes_[i].extras, "gnomon_node");
+        return mark != nullptr && mark->IsBool() && mark->Get<bool>();
+    }
+
+    /// Nodes that clips move, joints of the skins in use, and all that those hang on.
+    void mark_needed() {
+        needed_.assign(nodes_.size(), false);
+        moves_.assign(nodes_.size(), false);
+        for (tinygltf::Animation const& animation : document_.model.animations)
+            for (tinygltf::AnimationChannel const& channel : animation.channels)
+                if (moves_a_node(document_, channel)) moves_[static_cast<std::size_t>(channel.target_node)] = true;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            if (!reached_[i]) continue;
+            if (is_kept(i)) need(i);
+            if (nodes_[i].mesh >= 0 && nodes_[i].skin >= 0) use_skin(i);
+        }
+        for (std::size_t i = 0; i < nodes_.size(); ++i)
+            if (moves_[i] && reached_[i]) need(i);
+    }
+
+    void need(std::size_t i) {
+        for (auto n = static_cast<std::uint32_t>(i); n != none && !needed_[n]; n = parent_[n]) needed_[n] = true;
+    }
+
+    void use_skin(std::size_t i) {
+        auto const s = static_cast<std::size_t>(nodes_[i].skin);
+        if (s >= map_.skin_of.size())
+            bad_node(i, "names skin " + std::to_string(s) + " and there are only " + std::to_string(map_.skin_of.size()));
+        if (map_.skin_of[s] != none) return;
+        map_.skin_of[s] = 0;  // in use; its place follows when all are known
+        for (int const joint : document_.model.skins[s].joints) {
+            if (joint < 0 || static_cast<std::size_t>(joint) >= nodes_.size())
+                fail(SceneError::malformed, item("skin", s) + " names node " + std::to_string(joint) + " and there are only " +
+                                                std::to_string(nodes_.size()) + "; export the file again");
+            need(static_cast<std::size_t>(joint));
+        }
+    }
+
+    /// The scene's nodes: those needed, in the file's order, but parents first.
+    void keep_needed() {
+        std::uint32_t skins = 0;
+        for (std::uint32_t& skin : map_.skin_of)
+            if (skin != none) skin = skins++;
+        scene_.skins.resize(skins);
+        std::vector<std::uint32_t> line;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            line.clear();
+            for (auto n = static_cast<std::uint32_t>(i); n != none && needed_[n] && map_.node_of[n] == none; n = parent_[n]) line.push_back(n);
+            for (std::size_t k = line.size(); k-- > 0;) keep(line[k]);
+        }
+    }
+
+    void keep(std::uint32_t n) {
+        map_.node_of[n] = static_cast<std::uint32_t>(scene_.nodes.size());
+        Node node = without_name(n);
+        node.name = nodes_[n].name;
+        if (parent_[n] != none) {
+            node.parent = map_.node_of[parent_[n]];
+            if (moves_[parent_[n]]) moves_[n] = true;
+        }
+        scene_.nodes.push_back(std::move(node));
+    }
+
+    /// For each node the kept one that carries what it holds, if that can move, and the way from there.
+    void find_carriers() {
+        if (scene_.nodes.empty()) return;
+        carrier_.assign(nodes_.size(), none);
+        carrier_from_.assign(nodes_.size(), dmat4(1.0));
+        for (std::uint32_t const i : downward_) {
+            if (needed_[i]) {
+                carrier_[i] = moves_[i] || is_kept(i) ? i : none;
+            } else if (parent_[i] != none && carrier_[parent_[i]] != none) {
+                carrier_[i] = carrier_[parent_[i]];
+                carrier_from_[i] = multiplied(carrier_from_[parent_[i]], local(i));
+            }
+        }
+    }
+
+    /// Where a thing hangs that stands at `own` in node i.
+    struct Place {
+        dmat4 world{1.0};
+        std::uint32_t node = none;
+        dmat4 from_node{1.0};
+    };
+
+    [[nodiscard]] Place place_in(std::size_t i, dmat4 const* own) const {
+        Place place;
+        if (carrier_.empty() || carrier_[i] == none) {
+            place.world = own == nullptr ? world_[i] : multiplied(world_[i], *own);
+        } else {
+            place.node = map_.node_of[carrier_[i]];
+            place.from_node = own == nullptr ? carrier_from_[i] : multiplied(carrier_from_[i], *own);
+            place.world = multiplied(world_[carrier_[i]], place.from_node);
+        }
+        if (!all_finite(place.world) || !all_finite(place.from_node)) bad_node(i, "has something in it whose transform is not finite");
+        return place;
     }
 
     void mark_reached() {
@@ -164,7 +288,7 @@ private:
     void add_mesh(std::size_t i, std::uint32_t mesh) {
         if (mesh == none) return;
         auto const* many = extension(nodes_[i].extensions, "EXT_mesh_gpu_instancing");
-        if (many == nullptr) return add_instance(i, mesh, world_[i]);
+        if (many == nullptr) return add_instance(i, mesh, place_in(i, nullptr));
         auto const* attributes = member(*many, "attributes");
         if (attributes == nullptr) bad_node(i, "is instanced without attributes");
         auto const read = [&](char const* name, int components) {
@@ -188,12 +312,11 @@ private:
             dmat4 const own = from_trs({{number(t, 0, 0.0), number(t, 1, 0.0), number(t, 2, 0.0)},
                                         {number(r, 0, 0.0), number(r, 1, 0.0), number(r, 2, 0.0), number(r, 3, 1.0)},
                                         {number(s, 0, 1.0), number(s, 1, 1.0), number(s, 2, 1.0)}});
-            add_instance(i, mesh, multiplied(world_[i], own));
+            add_instance(i, mesh, place_in(i, &own));
         }
     }
 
-    void add_instance(std::size_t i, std::uint32_t mesh, dmat4 const& world) {
-        if (!all_finite(world)) bad_node(i, "has an instance whose transform is not finite");
+    void add_instance(std::size_t i, std::uint32_t mesh, Place const& place) {
         if (scene_.instances.size() >= document_.config.limits.max_nodes)
             fail(SceneError::over_limit, item("node", i) + " brings the instances above the limit of " +
                                              std::to_string(document_.config.limits.max_nodes) + "; raise max_nodes");
@@ -205,14 +328,23 @@ private:
         Instance instance;
         instance.name = nodes_[i].name;
         instance.mesh = mesh;
-        instance.world_from_mesh = world;
+        instance.world_from_mesh = place.world;
+        instance.node = place.node;
+        instance.node_from_mesh = place.from_node;
+        if (nodes_[i].skin >= 0) instance.skin = map_.skin_of[static_cast<std::size_t>(nodes_[i].skin)];
+        std::uint32_t const targets = count_morph_targets(scene_.meshes[mesh]);
+        document_.charge_motion(targets);
+        instance.weights = read_default_weights(document_, nodes_[i].weights, targets, item("node", i));
         scene_.instances.push_back(std::move(instance));
     }
 
     void add_camera(std::size_t i, tinygltf::Camera const& in) {
         Camera out;
         out.name = in.name.empty() ? nodes_[i].name : in.name;
-        place(out, camera_placed_by(world_[i]));
+        Place const at = place_in(i, nullptr);
+        place(out, camera_placed_by(at.world));
+        out.node = at.node;
+        out.node_from_camera = at.from_node;
         bool usable = false;
         if (in.type == "orthographic") {
             out.kind = CameraKind::orthographic;
@@ -241,7 +373,10 @@ private:
         out.kind = in.type == "directional" ? LightKind::directional
                    : in.type == "point"     ? LightKind::point
                                             : LightKind::spot;
-        place(out, light_placed_by(world_[i]));
+        Place const at = place_in(i, nullptr);
+        place(out, light_placed_by(at.world));
+        out.node = at.node;
+        out.node_from_light = at.from_node;
         for (std::size_t c = 0; c < in.color.size() && c < 3; ++c) out.color[static_cast<int>(c)] = rounded(in.color[c]);
         out.intensity = std::max(rounded(in.intensity), 0.0F);
         if (in.range > 0.0) out.range_m = rounded(in.range);
@@ -263,15 +398,21 @@ private:
     Scene& scene_;
     std::vector<std::uint32_t> parent_;
     std::vector<dmat4> world_;
+    std::vector<std::uint32_t> downward_;  ///< All nodes, parents first.
     std::vector<bool> reached_;
+    std::vector<bool> needed_;
+    std::vector<bool> moves_;
+    std::vector<std::uint32_t> carrier_;  ///< Empty where no node is kept.
+    std::vector<dmat4> carrier_from_;
+    NodeMap map_;
     std::vector<std::uint64_t> mesh_triangles_;
     std::uint64_t triangles_ = 0;
 };
 
 }  // namespace
 
-void load_nodes(Document& document, std::vector<std::uint32_t> const& mesh_of, Scene& scene) {
-    NodeLoader(document, mesh_of, scene).run();
+NodeMap load_nodes(Document& document, std::vector<std::uint32_t> const& mesh_of, Scene& scene) {
+    return NodeLoader(document, mesh_of, scene).run();
 }
 
 }  // namespace gnomon::scene::detail

@@ -159,7 +159,7 @@ private:
     void check_number(std::string const& token) const {
         Frame const& frame = frames_.back();
         if (frame.is_free || is_whole_number(token)) return;
-        bool const is_attribute = frame.is_object && frame.owner == "attributes";
+        bool const is_attribute = frame.is_object && (frame.owner == "attributes" || frame.owner == "targets");
         if (!is_attribute && !is_whole_number_key(frame.key)) return;
         fail(SceneError::malformed, quoted(frame.key) + " is " + token + " before byte " + std::to_string(at_) +
                                         " of the JSON; glTF wants a whole number from 0 to 2147483647 there");

@@ -15,7 +15,10 @@ Scene load_document(std::span<std::byte const> bytes, std::string const& base_di
     Scene scene;
     detail::load_materials(document, scene);
     std::vector<std::uint32_t> const mesh_of = detail::load_meshes(document, scene);
-    detail::load_nodes(document, mesh_of, scene);
+    detail::NodeMap const map = detail::load_nodes(document, mesh_of, scene);
+    detail::load_skins(document, map, scene);
+    detail::check_joints(scene);
+    detail::load_animations(document, map, scene);
     scene.notes = std::move(document.notes);
     if (scene.instances.empty()) {
         std::string why = "the file has no triangles to draw";

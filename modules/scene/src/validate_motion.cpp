@@ -2,6 +2,7 @@
 
 #include "detail/transforms.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace gnomon::scene::detail {
@@ -72,7 +73,9 @@ private:
         std::size_t const targets = count_morph_targets(mesh);
         expect(mesh.weights.empty() || mesh.weights.size() == targets, nth("mesh", i), "has not one weight per morph target; give it that or none");
         expect(finite(mesh.weights), nth("mesh", i), "has a morph weight that is not finite; mend it");
+        joints_of_.push_back(0);
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+            for (std::uint16_t const joint : mesh.primitives[p].joints) joints_of_.back() = std::max(joints_of_.back(), std::size_t{joint} + 1);
             std::string const where = nth("mesh", i) + ", " + nth("primitive", p);
             expect(mesh.primitives[p].morph_targets.size() == targets, where, "has other morph targets than the first; give all as many");
             check_targets(mesh.primitives[p], where);
@@ -116,10 +119,8 @@ private:
         if (instance.skin == none) return;
         expect(instance.skin < scene_.skins.size(), nth("instance", i), "names a skin that does not exist; give one that does");
         if (instance.skin >= scene_.skins.size()) return;
-        for (Primitive const& p : mesh.primitives)
-            for (std::uint16_t joint : p.joints)
-                expect(joint < scene_.skins[instance.skin].joints.size(), nth("instance", i),
-                       "has a mesh that names a joint beyond its skin's; give one that exists");
+        expect(joints_of_[instance.mesh] <= scene_.skins[instance.skin].joints.size(), nth("instance", i),
+               "has a mesh that names a joint beyond its skin's; give one that exists");
     }
 
     void check_carrier(char const* what, std::size_t i, std::uint32_t node, math::dmat4 const& node_from_it) {
@@ -145,6 +146,7 @@ private:
 
     Scene const& scene_;
     std::string broken_;
+    std::vector<std::size_t> joints_of_;  ///< Per mesh, the joints that its skins must have.
 };
 
 }  // namespace

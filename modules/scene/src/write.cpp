@@ -22,6 +22,7 @@ using detail::Bytes;
 using detail::fail;
 using detail::JsonWriter;
 
+constexpr std::uint64_t gltf_unsigned_short = 5123;
 constexpr std::uint64_t gltf_unsigned_int = 5125;
 constexpr std::uint64_t gltf_float = 5126;
 constexpr std::uint64_t target_vertices = 34962;
@@ -34,6 +35,25 @@ char const* name_of(AlphaMode mode) noexcept {
         case AlphaMode::blend: return "BLEND";
     }
     return "OPAQUE";
+}
+
+char const* name_of(AnimationPath path) noexcept {
+    switch (path) {
+        case AnimationPath::translation: return "translation";
+        case AnimationPath::rotation: return "rotation";
+        case AnimationPath::scale: return "scale";
+        case AnimationPath::weights: return "weights";
+    }
+    return "translation";
+}
+
+char const* name_of(Interpolation interpolation) noexcept {
+    switch (interpolation) {
+        case Interpolation::step: return "STEP";
+        case Interpolation::linear: return "LINEAR";
+        case Interpolation::cubic_spline: return "CUBICSPLINE";
+    }
+    return "LINEAR";
 }
 
 std::uint64_t wrap_code(math::Wrap wrap) noexcept {
@@ -69,15 +89,47 @@ public:
         return view_count_++;
     }
 
+    /// One of the two sets of four that a vertex's joints and their weights are stored in.
+    template <class T>
+    std::uint64_t add_influences(std::vector<T> const& values, std::uint32_t per_vertex, std::uint32_t set) {
+        std::vector<T> four;
+        four.reserve(values.size() / per_vertex * 4);
+        for (std::size_t k = set * std::size_t{4}; k < values.size(); k += per_vertex)
+            for (std::size_t c = 0; c < 4; ++c) four.push_back(values[k + c]);
+        bool const joints = sizeof(T) == sizeof(std::uint16_t);
+        begin_accessor(four, joints ? gltf_unsigned_short : gltf_float, "VEC4", target_vertices, four.size() / 4);
+        return end_accessor();
+    }
+
+    /// Floats that no vertex owns: `count` elements of `type`.
+    std::uint64_t add_floats(std::vector<float> const& values, char const* type, std::size_t count) {
+        begin_accessor(values, gltf_float, type, 0, count);
+        return end_accessor();
+    }
+
+    std::uint64_t add_matrices(std::vector<math::mat4> const& matrices) {
+        begin_accessor(matrices, gltf_float, "MAT4", 0, matrices.size());
+        return end_accessor();
+    }
+
+    /// Key times, with the first and last as glTF wants them.
+    std::uint64_t add_times(std::vector<float> const& times_s) {
+        begin_accessor(times_s, gltf_float, "SCALAR", 0, times_s.size());
+        accessors_.key("min").begin_array().value(static_cast<double>(times_s.front())).end_array();
+        accessors_.key("max").begin_array().value(static_cast<double>(times_s.back())).end_array();
+        return end_accessor();
+    }
+
     template <class T>
     std::uint64_t add_vectors(std::vector<T> const& values, char const* type) {
-        begin_accessor(values, gltf_float, type, target_vertices);
+        begin_accessor(values, gltf_float, type, target_vertices, values.size());
         return end_accessor();
     }
 
     std::uint64_t add_positions(std::vector<math::vec3> const& positions) {
-        begin_accessor(positions, gltf_float, "VEC3", target_vertices);
+        begin_accessor(positions, gltf_float, "VEC3", target_vertices, positions.size());
         math::Aabb const box = math::bounds_of(positions);
+        if (math::is_empty(box)) return end_accessor();
         accessors_.key("min");
         write_vector(accessors_, box.lo, 3);
         accessors_.key("max");
@@ -86,7 +138,7 @@ public:
     }
 
     std::uint64_t add_indices(std::vector<std::uint32_t> const& indices) {
-        begin_accessor(indices, gltf_unsigned_int, "SCALAR", target_indices);
+        begin_accessor(indices, gltf_unsigned_int, "SCALAR", target_indices, indices.size());
         return end_accessor();
     }
 
@@ -100,10 +152,10 @@ public:
 
 private:
     template <class T>
-    void begin_accessor(std::vector<T> const& values, std::uint64_t component, char const* type, std::uint64_t target) {
+    void begin_accessor(std::vector<T> const& values, std::uint64_t component, char const* type, std::uint64_t target, std::size_t count) {
         std::uint64_t const view = add_view(values.data(), values.size() * sizeof(T), target);
         accessors_.begin_object().member("bufferView", view).member("componentType", component);
-        accessors_.member("count", std::uint64_t{values.size()}).member("type", type);
+        accessors_.member("count", std::uint64_t{count}).member("type", type);
     }
 
     std::uint64_t end_accessor() {
@@ -132,6 +184,8 @@ public:
         write_cameras();
         write_lights();
         write_nodes();
+        write_skins();
+        write_animations();
         buffer.write(json_);
     }
 
@@ -232,7 +286,9 @@ private:
             write_name(mesh.name);
             json_.key("primitives").begin_array();
             for (Primitive const& p : mesh.primitives) write_primitive(p);
-            json_.end_array().end_object();
+            json_.end_array();
+            write_weights(mesh.weights);
+            json_.end_object();
         }
         json_.end_array();
     }
@@ -242,8 +298,27 @@ private:
         json_.member("POSITION", buffer.add_positions(p.positions)).member("NORMAL", buffer.add_vectors(p.normals, "VEC3"));
         if (!p.uv0.empty()) json_.member("TEXCOORD_0", buffer.add_vectors(p.uv0, "VEC2"));
         if (!p.uv1.empty()) json_.member("TEXCOORD_1", buffer.add_vectors(p.uv1, "VEC2"));
+        for (std::uint32_t set = 0; set * 4 < p.influences; ++set) {
+            json_.member("JOINTS_" + std::to_string(set), buffer.add_influences(p.joints, p.influences, set));
+            json_.member("WEIGHTS_" + std::to_string(set), buffer.add_influences(p.joint_weights, p.influences, set));
+        }
         json_.end_object().member("indices", buffer.add_indices(p.indices)).member("material", std::uint64_t{p.material});
+        if (!p.morph_targets.empty()) json_.key("targets").begin_array();
+        for (MorphTarget const& target : p.morph_targets) {
+            json_.begin_object();
+            if (!target.positions.empty()) json_.member("POSITION", buffer.add_positions(target.positions));
+            if (!target.normals.empty()) json_.member("NORMAL", buffer.add_vectors(target.normals, "VEC3"));
+            json_.end_object();
+        }
+        if (!p.morph_targets.empty()) json_.end_array();
         json_.end_object();
+    }
+
+    void write_weights(std::vector<float> const& weights) {
+        if (weights.empty()) return;
+        json_.key("weights").begin_array();
+        for (float const weight : weights) json_.value(static_cast<double>(weight));
+        json_.end_array();
     }
 
     void write_cameras() {
@@ -287,10 +362,13 @@ private:
     void begin_node(std::string const& name, math::dmat4 const& world) {
         json_.begin_object();
         write_name(name);
-        if (world == math::dmat4(1.0)) return;
+        if (world != math::dmat4(1.0)) write_matrix(world);
+    }
+
+    void write_matrix(math::dmat4 const& m) {
         json_.key("matrix").begin_array();
         for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 4; ++row) json_.value(world[column][row]);
+            for (int row = 0; row < 4; ++row) json_.value(m[column][row]);
         json_.end_array();
     }
 
@@ -305,34 +383,126 @@ private:
         return m;
     }
 
+    /// The scene's own nodes first, then one for each instance, camera and light, so that all come back in their order.
     void write_nodes() {
+        std::uint64_t const first_instance = scene_.nodes.size();
+        std::uint64_t const first_camera = first_instance + scene_.instances.size();
+        std::uint64_t const first_light = first_camera + scene_.cameras.size();
+        children_.assign(scene_.nodes.size(), {});
+        for (std::uint64_t i = 0; i < scene_.nodes.size(); ++i) hang(i, scene_.nodes[i].parent);
+        for (std::uint64_t i = 0; i < scene_.instances.size(); ++i) hang(first_instance + i, scene_.instances[i].node);
+        for (std::uint64_t i = 0; i < scene_.cameras.size(); ++i) hang(first_camera + i, scene_.cameras[i].node);
+        for (std::uint64_t i = 0; i < scene_.lights.size(); ++i) hang(first_light + i, scene_.lights[i].node);
         json_.key("nodes").begin_array();
-        for (Instance const& instance : scene_.instances) {
-            begin_node(instance.name, instance.world_from_mesh);
-            json_.member("mesh", std::uint64_t{instance.mesh}).end_object();
-        }
+        for (std::uint64_t i = 0; i < scene_.nodes.size(); ++i) write_own_node(scene_.nodes[i], children_[i]);
+        for (Instance const& instance : scene_.instances) write_instance(instance);
         for (std::uint64_t i = 0; i < scene_.cameras.size(); ++i) {
             Camera const& c = scene_.cameras[i];
-            begin_node(c.name, posed(c.right, c.up, c.back, c.eye_m));
+            begin_node(c.name, c.node != none ? c.node_from_camera : posed(c.right, c.up, c.back, c.eye_m));
             json_.member("camera", i).end_object();
         }
         for (std::uint64_t i = 0; i < scene_.lights.size(); ++i) {
             Light const& l = scene_.lights[i];
             // A light has no up: the axes beside its direction are those of any camera that looks along it.
             Camera const frame = looking_at("", math::dvec3(0.0), l.direction, 1.0);
-            begin_node(l.name, posed(frame.right, frame.up, -l.direction, l.position_m));
+            begin_node(l.name, l.node != none ? l.node_from_light : posed(frame.right, frame.up, -l.direction, l.position_m));
             json_.key("extensions").begin_object().key("KHR_lights_punctual").begin_object().member("light", i);
             json_.end_object().end_object().end_object();
         }
-        json_.end_array();
-        std::uint64_t const nodes = scene_.instances.size() + scene_.cameras.size() + scene_.lights.size();
-        json_.key("scenes").begin_array().begin_object();
+        json_.end_array().key("scenes").begin_array().begin_object();
         write_name(scene_.name);
-        json_.key("nodes").begin_array();
-        for (std::uint64_t i = 0; i < nodes; ++i) json_.value(i);
-        json_.end_array().end_object().end_array().member("scene", std::uint64_t{0});
+        write_list("nodes", roots_);
+        json_.end_object().end_array().member("scene", std::uint64_t{0});
     }
 
+    void hang(std::uint64_t node, std::uint32_t parent) {
+        (parent == none ? roots_ : children_[parent]).push_back(node);
+    }
+
+    void write_list(char const* name, std::vector<std::uint64_t> const& list) {
+        json_.key(name).begin_array();
+        for (std::uint64_t const i : list) json_.value(i);
+        json_.end_array();
+    }
+
+    void write_own_node(Node const& node, std::vector<std::uint64_t> const& children) {
+        json_.begin_object();
+        write_name(node.name);
+        if (node.matrix) {
+            write_matrix(*node.matrix);
+        } else {
+            if (node.translation != math::dvec3(0.0)) {
+                json_.key("translation");
+                write_vector(json_, node.translation, 3);
+            }
+            if (node.rotation != math::dvec4(0.0, 0.0, 0.0, 1.0)) {
+                json_.key("rotation");
+                write_vector(json_, node.rotation, 4);
+            }
+            if (node.scale != math::dvec3(1.0)) {
+                json_.key("scale");
+                write_vector(json_, node.scale, 3);
+            }
+        }
+        if (!children.empty()) write_list("children", children);
+        // So that it comes back as a node, whether anything moves it or not.
+        json_.key("extras").begin_object().member("gnomon_node", true).end_object().end_object();
+    }
+
+    void write_instance(Instance const& instance) {
+        begin_node(instance.name, instance.node != none ? instance.node_from_mesh : instance.world_from_mesh);
+        json_.member("mesh", std::uint64_t{instance.mesh});
+        if (instance.skin != none) json_.member("skin", std::uint64_t{instance.skin});
+        write_weights(instance.weights);
+        json_.end_object();
+    }
+
+    void write_skins() {
+        if (scene_.skins.empty()) return;
+        json_.key("skins").begin_array();
+        for (Skin const& skin : scene_.skins) {
+            json_.begin_object();
+            write_name(skin.name);
+            json_.member("inverseBindMatrices", buffer.add_matrices(skin.inverse_bind));
+            write_list("joints", {skin.joints.begin(), skin.joints.end()});
+            json_.end_object();
+        }
+        json_.end_array();
+    }
+
+    void write_animations() {
+        auto const plays = [](Animation const& a) { return !a.channels.empty(); };
+        if (std::none_of(scene_.animations.begin(), scene_.animations.end(), plays)) return;
+        json_.key("animations").begin_array();
+        for (Animation const& animation : scene_.animations) {
+            if (!plays(animation)) continue;
+            json_.begin_object();
+            write_name(animation.name);
+            json_.key("samplers").begin_array();
+            for (AnimationChannel const& channel : animation.channels) write_sampler(channel);
+            json_.end_array().key("channels").begin_array();
+            for (std::uint64_t c = 0; c < animation.channels.size(); ++c) {
+                AnimationChannel const& channel = animation.channels[c];
+                bool const weights = channel.path == AnimationPath::weights;
+                std::uint64_t const node = weights ? scene_.nodes.size() + channel.instance : channel.node;
+                json_.begin_object().member("sampler", c).key("target").begin_object().member("node", node);
+                json_.member("path", name_of(channel.path)).end_object().end_object();
+            }
+            json_.end_array().end_object();
+        }
+        json_.end_array();
+    }
+
+    void write_sampler(AnimationChannel const& channel) {
+        std::uint32_t const width = components_of(channel.path);
+        char const* const type = width == 0 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4";
+        json_.begin_object().member("input", buffer.add_times(channel.times_s));
+        json_.member("output", buffer.add_floats(channel.values, type, channel.values.size() / std::max(width, 1U)));
+        json_.member("interpolation", name_of(channel.interpolation)).end_object();
+    }
+
+    std::vector<std::vector<std::uint64_t>> children_;  ///< Per node of the scene, indices of the file's nodes.
+    std::vector<std::uint64_t> roots_;
     Scene const& scene_;
     JsonWriter json_;
 };

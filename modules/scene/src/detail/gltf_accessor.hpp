@@ -16,7 +16,7 @@ struct Accessor {
     std::byte const* data = nullptr;  ///< Null: all zeros.
     std::size_t stride = 0;
     std::size_t count = 0;
-    int components = 0;      ///< 1 for SCALAR to 4 for VEC4.
+    int components = 0;      ///< 1 for SCALAR to 4 for VEC4, 16 for MAT4.
     int component_type = 0;  ///< As in the file: 5120 to 5126.
     bool normalized = false;
     std::vector<std::uint32_t> sparse_indices;  ///< Ascending.
@@ -26,10 +26,12 @@ struct Accessor {
     /// Component `c` of element `i`, as a float as glTF converts it.
     [[nodiscard]] float at(std::size_t i, int c) const noexcept;
 
-    /// Component 0 of element `i`, as the unsigned number it is.
+    /// Component `c` of element `i`, as the unsigned number it is.
     ///
     /// expects: the component type is one of the unsigned ones.
-    [[nodiscard]] std::uint32_t index_at(std::size_t i) const noexcept;
+    [[nodiscard]] std::uint32_t whole_at(std::size_t i, int c) const noexcept;
+
+    [[nodiscard]] std::uint32_t index_at(std::size_t i) const noexcept { return whole_at(i, 0); }
 
 private:
     [[nodiscard]] std::byte const* element(std::size_t i) const noexcept;

@@ -40,6 +40,9 @@ public:
     /// Counts vertices and other elements that are about to be decoded against the limit.
     void charge_elements(std::uint64_t count);
 
+    /// Counts numbers of clips, skins and morph weights that are about to be decoded against the limit.
+    void charge_motion(std::uint64_t count);
+
     tinygltf::Model model;
     std::vector<ImageSource> images;
     Notes notes;
@@ -66,6 +69,7 @@ private:
     std::vector<Buffer> buffers_;
     std::uint64_t bytes_left_;
     std::uint64_t elements_ = 0;
+    std::uint64_t motion_ = 0;
 };
 
 /// A member of an extension or of extras; null where it is not there.

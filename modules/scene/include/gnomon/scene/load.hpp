@@ -20,6 +20,7 @@ struct Limits {
     std::uint64_t max_file_bytes = std::uint64_t{1} << 31U;  ///< Of the file and all that it refers to, together.
     std::uint64_t max_triangles = std::uint64_t{1} << 25U;   ///< Drawn: every instance counts.
     std::uint64_t max_vertices = std::uint64_t{1} << 26U;    ///< Stored, over all meshes.
+    std::uint64_t max_motion_values = std::uint64_t{1} << 26U;  ///< Numbers of all clips, joints and morph weights.
     std::uint64_t max_zero_elements = std::uint64_t{1} << 20U;  ///< Of an accessor that has no bytes in the file.
     std::uint32_t max_nodes = 1U << 20U;                        ///< Instances that a node multiplies count as nodes.
     std::uint32_t max_depth = 1024;                             ///< Of the node hierarchy.
@@ -33,6 +34,7 @@ struct Limits {
 struct LoadConfig {
     Limits limits;
     std::uint32_t scene_index = none;  ///< `none`: the file's default scene, or its first, or all root nodes.
+    std::string scene_name;            ///< The first of that name, if not empty; `scene_index` is then not asked.
     bool load_images = true;           ///< Off: every texture is plain white.
 };
 

@@ -171,6 +171,7 @@ struct Notes {
     std::uint64_t mended_uvs = 0;            ///< NaN or infinite; 0 stands in.
     std::uint64_t failed_images = 0;         ///< Missing or unreadable; plain white stands in.
     std::uint64_t mended_weights = 0;        ///< Vertices whose joint weights did not sum to 1; scaled to it.
+    std::uint64_t mended_offsets = 0;        ///< Of morph targets, NaN or infinite; 0 stands in.
     std::uint64_t dropped_channels = 0;      ///< Of animations: nothing here to move, or keys that make no sense; left out.
     std::vector<std::string> warnings;       ///< One sentence each, at most `Limits::max_warnings`.
 
@@ -189,7 +190,8 @@ struct Scene {
     std::vector<Node> nodes;            ///< Those that move, and what they and the joints hang on. Parents come first.
     std::vector<Skin> skins;
     std::vector<Animation> animations;  ///< The clips; one plays at a time, unless all are asked for.
-    Notes notes;                        ///< Not a part of what the scene is: not compared.
+    std::vector<std::string> file_scenes;  ///< The names of all scenes of the file it was read from. Not compared.
+    Notes notes;                           ///< Not a part of what the scene is: not compared.
 
     friend bool operator==(Scene const& a, Scene const& b) {
         return a.name == b.name && a.meshes == b.meshes && a.instances == b.instances && a.materials == b.materials &&
