@@ -14,7 +14,9 @@ constexpr std::array<std::string_view, 4> read_extensions{"KHR_mesh_quantization
                                                           "KHR_lights_punctual", "EXT_mesh_gpu_instancing"};
 
 /// Extensions that only change how a surface shines leave the geometry as it is; all but their colours can be left out.
-bool is_shading_only(std::string_view name) noexcept { return name.starts_with("KHR_materials_"); }
+bool is_shading_only(std::string_view name) noexcept {
+    return name.starts_with("KHR_materials_") || name == "KHR_technique_webgl" || name == "KHR_techniques_webgl";
+}
 
 std::uint32_t little_endian_u32(std::span<std::byte const> bytes, std::size_t at) noexcept {
     std::uint32_t value = 0;
@@ -106,8 +108,10 @@ void Document::parse(std::string_view json) {
     std::string error;
     std::string warning;
     if (!parser.LoadASCIIFromString(&model, &error, &warning, scanned.text.data(),
-                                    static_cast<unsigned int>(scanned.text.size()), ""))
+                                    static_cast<unsigned int>(scanned.text.size()), "")) {
+        check_extensions();  // a better reason than the parser's, which trips over what an extension leaves out
         fail(SceneError::malformed, "the file is not valid glTF (" + one_line(error) + "); export it again");
+    }
     if (!model.asset.version.starts_with("2."))
         fail(SceneError::not_gltf, "the file is glTF " + quoted(model.asset.version) + "; export it as version 2.0");
     // A channel without a node moves nothing that is read here; the parser leaves it out with this complaint.

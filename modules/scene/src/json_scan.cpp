@@ -17,9 +17,6 @@ constexpr std::array<std::string_view, 27> whole_number_keys{
     "mesh",       "mode",       "node",       "nodes",      "output",     "sampler", "scene",   "skeleton",
     "skin",       "source",     "texCoord",   "attributes"};
 
-bool is_whole_number_key(std::string_view key) noexcept {
-    return std::find(whole_number_keys.begin(), whole_number_keys.end(), key) != whole_number_keys.end();
-}
 
 bool is_whole_number(std::string_view token) noexcept {
     if (token.empty() || token.size() > 10) return false;
@@ -37,6 +34,19 @@ bool is_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c 
 constexpr std::uint64_t max_root_objects = 1U << 16U;
 constexpr std::array<std::string_view, 7> heavy_arrays{"materials", "textures", "samplers", "scenes",
                                                        "cameras",   "images",   "buffers"};
+
+/// Root members of which glTF defines what is in them; others may hold anything.
+constexpr std::array<std::string_view, 14> known_members{"accessors", "animations", "asset",     "buffers", "bufferViews",
+                                                         "cameras",   "images",     "materials", "meshes",  "nodes",
+                                                         "samplers",  "scenes",     "skins",     "textures"};
+
+/// Arrays of which glTF 1.0 makes objects.
+constexpr std::array<std::string_view, 5> once_objects{"accessors", "bufferViews", "buffers", "meshes", "nodes"};
+
+template <std::size_t N>
+bool holds(std::array<std::string_view, N> const& words, std::string_view word) noexcept {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 class Scanner {
 public:
@@ -106,9 +116,17 @@ private:
             frame.owner = parent.key;
             if (!is_object) frame.key = parent.key;
             frame.is_free = parent.is_free || parent.key == "extras" || parent.key == "extensions";
+            if (frames_.size() == 1) check_root_member(parent.key, frame);
         }
         frames_.push_back(frame);
         ++at_;
+    }
+
+    void check_root_member(std::string_view key, Frame& frame) const {
+        frame.is_free = frame.is_free || !holds(known_members, key);
+        if (frame.is_object && holds(once_objects, key))
+            fail(SceneError::not_gltf, quoted(key) + " is an object before byte " + std::to_string(at_) +
+                                           " of the JSON, as in glTF 1.0; export the file as version 2.0");
     }
 
     void close(bool is_object) {
@@ -160,7 +178,7 @@ private:
         Frame const& frame = frames_.back();
         if (frame.is_free || is_whole_number(token)) return;
         bool const is_attribute = frame.is_object && (frame.owner == "attributes" || frame.owner == "targets");
-        if (!is_attribute && !is_whole_number_key(frame.key)) return;
+        if (!is_attribute && !holds(whole_number_keys, frame.key)) return;
         fail(SceneError::malformed, quoted(frame.key) + " is " + token + " before byte " + std::to_string(at_) +
                                         " of the JSON; glTF wants a whole number from 0 to 2147483647 there");
     }

@@ -161,6 +161,23 @@ TEST_CASE("files that are no glTF are told apart", "[scene][hostile]") {
     refuses(text("{\"asset\":{\"version\":\"2.0\"},,}"), SceneError::malformed, "not valid glTF");
 }
 
+TEST_CASE("a file of glTF 1.0 is told by its objects where arrays belong", "[scene][hostile]") {
+    refuses(text(R"({"accessors":{"a":{"bufferView":"view_1"}},"asset":{"version":"1.0"}})"), SceneError::not_gltf, "glTF 1.0");
+}
+
+TEST_CASE("a compressed mesh is refused for its extension, not for the bytes that this leaves out", "[scene][hostile]") {
+    std::string const json = replaced(triangle_json(), R"({"bufferView":3,)", "{");
+    refuses(glb(replaced(json, R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0)"), triangle_blob().bytes()),
+            SceneError::unsupported_extension, "KHR_draco");
+}
+
+TEST_CASE("root members that glTF does not define may hold anything", "[scene][hostile]") {
+    auto const s = load_changed(R"("scene":0)", R"("techniques":[{"attributes":{"a_normal":"normal"},"count":-1}],"extensionsRequired":["KHR_technique_webgl"],"scene":0)");
+    CAPTURE(s ? std::string() : s.failure().message);
+    REQUIRE(s.has_value());
+    CHECK(s->notes.warnings.size() == 1);
+}
+
 TEST_CASE("damaged GLB containers are told apart", "[scene][hostile]") {
     std::vector<std::byte> const good = glb(triangle_json(), triangle_blob().bytes());
     auto const with = [&](std::size_t at, std::uint8_t value) {
