@@ -32,6 +32,29 @@ inline double distance(Cluster const& a, Cluster const& b) {
     return sum;
 }
 
+/// The box of the curve: 14 of 16 parts of the centres along each axis, and four times the largest extent of those more.
+inline Aabb curve_box(std::vector<gnomon::math::vec3> const& centers) {
+    Aabb all;
+    for (gnomon::math::vec3 const& c : centers) all = gnomon::math::extended(all, c);
+    std::size_t const count = std::min<std::size_t>(centers.size(), 1024);
+    if (count == 0) return all;
+    float extent = 0.0F;
+    Aabb most;
+    for (gnomon::math::axis_t axis = 0; axis < 3; ++axis) {
+        std::vector<float> sorted;
+        for (std::size_t i = 0; i < count; ++i) sorted.push_back(centers[i * centers.size() / count][axis]);
+        std::sort(sorted.begin(), sorted.end());
+        most.lo[axis] = sorted[count / 16];
+        most.hi[axis] = sorted[count - 1 - count / 16];
+        extent = std::max(extent, most.hi[axis] - most.lo[axis]);
+    }
+    for (gnomon::math::axis_t axis = 0; axis < 3 && extent > 0.0F; ++axis) {
+        all.lo[axis] = std::max(all.lo[axis], most.lo[axis] - 4.0F * extent);
+        all.hi[axis] = std::min(all.hi[axis], most.hi[axis] + 4.0F * extent);
+    }
+    return all;
+}
+
 /// The usable triangles of each group, in the order of their places on the curve.
 inline std::map<std::uint32_t, std::vector<Cluster>> leaves(gnomon::batch::Triangles const& list) {
     struct Leaf {
@@ -39,7 +62,7 @@ inline std::map<std::uint32_t, std::vector<Cluster>> leaves(gnomon::batch::Trian
         Aabb box;
     };
     std::vector<Leaf> kept;
-    Aabb centers;
+    std::vector<gnomon::math::vec3> centers;
     for (std::uint32_t t = 0; t < list.size(); ++t) {
         Aabb box;
         bool good = true;
@@ -50,11 +73,12 @@ inline std::map<std::uint32_t, std::vector<Cluster>> leaves(gnomon::batch::Trian
         }
         if (!good) continue;
         kept.push_back({t, box});
-        centers = gnomon::math::extended(centers, gnomon::math::center(box));
+        centers.push_back(gnomon::math::center(box));
     }
+    Aabb const curve = curve_box(centers);
     std::stable_sort(kept.begin(), kept.end(), [&](Leaf const& a, Leaf const& b) {
-        return gnomon::math::morton_63(centers, gnomon::math::center(a.box)) <
-               gnomon::math::morton_63(centers, gnomon::math::center(b.box));
+        return gnomon::math::morton_63(curve, gnomon::math::center(a.box)) <
+               gnomon::math::morton_63(curve, gnomon::math::center(b.box));
     });
     std::map<std::uint32_t, std::vector<Cluster>> groups;
     for (Leaf const& leaf : kept) {

@@ -76,8 +76,8 @@ private:
     void merge(std::uint32_t a, std::uint32_t b) noexcept {
         if (b < a) std::swap(a, b);
         math::Aabb const box = math::merged(tree_.box(a), tree_.box(b));
-        tree_.set(b, math::Aabb{});
-        tree_.set(a, box);
+        tree_.remove(b);
+        tree_.grow(a, box);
         std::uint32_t const size = arrays_.size[a] + arrays_.size[b];
         // A subtree that is too large keeps both parts as they are: each is a batch, or a union of batches.
         if (size <= limits_.max_triangles) arrays_.owner[b] = a;

@@ -2,7 +2,7 @@
 // A tree over the boxes of clusters that answers: with which cluster does this one make the smallest box?
 //
 // Implicit and eight wide: slot i of level 0 stands in block i / 8, which is slot i / 8 of level 1, and so on. Clusters
-// come and go by their slot; the boxes above follow. Boxes are held at half size, so that no extent of finite ones
+// are merged into the lower of their slots. Boxes are held at half size, so that no extent of finite ones
 // overflows; an empty slot has lo = +infinity and hi = -infinity.
 
 #include <gnomon/math/bounds.hpp>
@@ -127,14 +127,17 @@ public:
 
     [[nodiscard]] math::Aabb box(std::uint32_t slot) const noexcept { return blocks_[slot / width].get(slot % width); }
 
-    void set(std::uint32_t slot, math::Aabb const& box) noexcept {
+    /// Gives the cluster in `slot` a larger box. The blocks above stay: they hold some of its points still, and that is all
+    /// that a search takes from them; grown boxes would tell it less.
+    void grow(std::uint32_t slot, math::Aabb const& box) noexcept { blocks_[slot / width].set(slot % width, box); }
+
+    /// Takes the cluster out of `slot`, and blocks without any out of those above.
+    void remove(std::uint32_t slot) noexcept {
         std::size_t at = slot;
-        math::Aabb value = box;
         for (std::size_t level = 0; level < levels_; ++level) {
             Block& block = blocks_[first_[level] + at / width];
-            if (block.get(at % width) == value) return;
-            block.set(at % width, value);
-            value = block.bounds();
+            block.set(at % width, math::Aabb{});
+            if (!math::is_empty(block.bounds())) return;
             at /= width;
         }
     }

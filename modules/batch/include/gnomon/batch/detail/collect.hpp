@@ -7,6 +7,7 @@
 #include <gnomon/math/morton.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -33,28 +34,53 @@ struct Slice {
     std::uint32_t group = 0;
 };
 
+[[nodiscard]] inline math::vec3 center_of(Triangles const& list, Key const& key) noexcept {
+    math::Aabb box;
+    static_cast<void>(bounds_of_triangle(list, key.triangle, box));
+    return math::center(box);
+}
+
+/// The box that the curve fills: around most centres with four times their extent to spare, cut to `bounds` of all. A few
+/// triangles far away do not coarsen the order of the others.
+[[nodiscard]] inline math::Aabb curve_box(Triangles const& list, std::vector<Key> const& keys, math::Aabb const& bounds) noexcept {
+    std::array<float, 1024> sample{};
+    std::size_t const count = std::min(keys.size(), sample.size());
+    if (count == 0) return bounds;
+    math::Aabb most;
+    float spare = 0.0F;
+    for (math::axis_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < count; ++i) sample[i] = center_of(list, keys[i * keys.size() / count])[axis];
+        auto const rank = [&](std::size_t i) {
+            std::nth_element(sample.begin(), sample.begin() + i, sample.begin() + count);
+            return sample[i];
+        };
+        most.lo[axis] = rank(count / 16);
+        most.hi[axis] = rank(count - 1 - count / 16);
+        spare = std::max(spare, 4.0F * (most.hi[axis] - most.lo[axis]));
+    }
+    if (spare == 0.0F) return bounds;
+    return {glm::max(bounds.lo, most.lo - spare), glm::min(bounds.hi, most.hi + spare)};
+}
+
 /// Keys of the triangles that are kept, sorted; counts the others.
 template <core::Executor E>
 LeftOut collect(Triangles const& list, std::vector<Key>& keys, E& executor) {
     LeftOut left_out;
-    math::Aabb bounds;  // of the centres: a few huge triangles do not coarsen the grid
+    math::Aabb bounds;  // of the centres
     keys.clear();
     keys.reserve(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
-        math::Aabb box;
-        Fate const fate = bounds_of_triangle(list, i, box);
+        math::Aabb own;
+        Fate const fate = bounds_of_triangle(list, i, own);
         left_out.bad_index += fate == Fate::bad_index ? 1U : 0U;
         left_out.not_finite += fate == Fate::not_finite ? 1U : 0U;
         if (fate != Fate::kept) continue;
         keys.push_back({0, list.group(i), static_cast<std::uint32_t>(i)});
-        bounds = math::extended(bounds, math::center(box));
+        bounds = math::extended(bounds, math::center(own));
     }
+    math::Aabb const box = curve_box(list, keys, bounds);
     executor.parallel_for(keys.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            math::Aabb box;
-            static_cast<void>(bounds_of_triangle(list, keys[i].triangle, box));
-            keys[i].code = math::morton_63(bounds, math::center(box));
-        }
+        for (std::size_t i = begin; i < end; ++i) keys[i].code = math::morton_63(box, center_of(list, keys[i]));
     });
     std::sort(keys.begin(), keys.end());
     return left_out;
