@@ -133,6 +133,9 @@ TEST_CASE("borders and edges of four triangles stay where they are", "[mesh][ope
     CHECK(mesh::build_half_edges(lods[0].mesh.triangles()).report.open_edges == 48);
     CHECK(lods[0].mesh.indices.size() < sheet.indices.size() / 2);
 
+    std::array const out_of_reach{0.5, 0.2};
+    CHECK(mesh::make_lods(meshes::sheet(1).list(), {.ratios = out_of_reach}).size() == 1);
+
     meshes::Mesh two = meshes::sphere(8);
     two.append(meshes::sphere(8));
     for (std::size_t i = two.positions.size() / 2; i < two.positions.size(); ++i) {

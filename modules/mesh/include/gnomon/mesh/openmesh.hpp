@@ -156,8 +156,8 @@ private:
 
 }  // namespace detail
 
-/// Levels of detail of a shadow caster: one per ratio, until one would be farther from `mesh` than `max_error_m`; then a
-/// last one, the coarsest that is found to keep it.
+/// Levels of detail of a shadow caster: one per ratio, until one would be no smaller than the one before, or farther
+/// from `mesh` than `max_error_m`; then a last one, the coarsest that is found to keep it.
 ///
 /// expects: ratios in (0, 1], falling.
 /// returns: LODs with fewer and fewer triangles, each a subset of the places of `mesh`. Closed meshes stay closed. A
@@ -174,6 +174,7 @@ private:
         GNOMON_EXPECT(ratio > 0.0 && ratio <= 1.0 && (i == 0 || ratio < config.ratios[i - 1]));
         auto const target = static_cast<std::size_t>(std::ceil(ratio * static_cast<double>(maker.faces())));
         Lod lod = maker.make(target);
+        if (!lods.empty() && lod.mesh.indices.size() >= lods.back().mesh.indices.size()) break;
         bool const good = lod.error_m() <= config.max_error_m;
         if (good || maker.bisect(target, before, lod)) lods.push_back(std::move(lod));
         if (!good) break;
