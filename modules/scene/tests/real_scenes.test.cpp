@@ -8,6 +8,7 @@
 #include <gnomon/scene/suggest.hpp>
 #include <gnomon/scene/write.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -67,4 +68,48 @@ TEST_CASE("real scenes have the triangles that their list says, and come back eq
         CHECK(*again == *s);
         CHECK(scene::flatten(*again).positions == g.positions);
     }
+}
+
+TEST_CASE("real clips move without jumps, stay in place, and end where they began", "[scene][real]") {
+    std::vector<Listed> const scenes = listed_scenes();
+    if (scenes.empty()) SKIP("set GNOMON_SCENES_DIR to a folder of scenes with an INDEX.tsv");
+    std::size_t clips = 0;
+    for (Listed const& listed : scenes) {
+        auto const s = scene::load_gltf(listed.path);
+        REQUIRE(s.has_value());
+        for (std::uint32_t clip = 0; clip < s->animations.size(); ++clip, ++clips) {
+            CAPTURE(listed.path);
+            CAPTURE(s->animations[clip].name);
+            scene::Geometry const rest = scene::flatten(*s);
+            scene::Geometry frame = rest;
+            auto const size = static_cast<double>(glm::distance(rest.bounds.lo, rest.bounds.hi));
+            double const end_s = scene::duration_s(s->animations[clip]);
+            std::vector<math::vec3> last;
+            std::vector<math::vec3> first;
+            double largest_step = 0.0;
+            double path = 0.0;
+            constexpr int steps = 240;
+            for (int i = 0; i <= steps; ++i) {
+                scene::update(frame, *s, scene::pose_at(*s, {end_s * i / steps, clip, false}));
+                double step = 0.0;
+                for (std::size_t v = 0; v < last.size(); ++v)
+                    step = std::max(step, static_cast<double>(glm::distance(last[v], frame.positions[v])));
+                largest_step = std::max(largest_step, step);
+                path += step;
+                if (i == 0) first = frame.positions;
+                last = frame.positions;
+                auto const now = static_cast<double>(glm::distance(frame.bounds.lo, frame.bounds.hi));
+                CHECK(now > size * 0.5);
+                CHECK(now < size * 2.0);
+                CHECK(static_cast<double>(glm::distance(frame.bounds.lo, rest.bounds.lo)) < size);
+            }
+            CHECK(largest_step < size * 0.05);
+            CHECK(path > size * 0.01);  // something moves
+            double gap = 0.0;
+            for (std::size_t v = 0; v < last.size(); ++v)
+                gap = std::max(gap, static_cast<double>(glm::distance(last[v], first[v])));
+            CHECK(gap < size * 0.05);
+        }
+    }
+    CHECK(clips != 0);
 }
