@@ -2,6 +2,7 @@
 // The city that depth passes are compared on: a ground of 32 x 32 quads, 36 x 35 boxes of 5 faces, 8 to 78 m high. Only
 // the faces' subdivision changes: 2x2, 4x5 or 8x10 quads give 52k, 254k or 1.01M triangles.
 
+#include <gnomon/math/bounds.hpp>
 #include <gnomon/math/view.hpp>
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace math = gnomon::math;
 struct City {
     std::vector<math::vec3> positions;
     std::vector<std::uint32_t> indices;
+    std::vector<math::Aabb> boxes;  ///< The buildings, in draw order after the ground.
 
     /// A grid of n x m quads on the parallelogram o, o + u, o + v.
     void add_face(math::vec3 o, math::vec3 u, math::vec3 v, int n, int m) {
@@ -31,6 +33,7 @@ struct City {
     }
 
     void add_box(math::vec3 lo, math::vec3 hi, int n, int m) {
+        boxes.push_back({lo, hi});
         math::vec3 const d = hi - lo;
         math::vec3 const x(d.x, 0, 0);
         math::vec3 const y(0, d.y, 0);

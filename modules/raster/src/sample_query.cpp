@@ -298,7 +298,7 @@ void query_meshes(std::span<std::span<Draw const> const> meshes, Layer const& la
     in_parts(workspace.state().scratch, meshes.size(), executor,
              [&](Scratch& scratch, std::size_t begin, std::size_t end) {
                  for (std::size_t i = begin; i < end; ++i) {
-                     Query query(scratch, std::is_same_v<T, bool>);
+                     Query query(scratch, std::is_same_v<T, std::uint8_t>);
                      query.plan(meshes[i], layer);
                      out[i] = static_cast<T>(query.run());
                  }
@@ -315,7 +315,7 @@ void query_all_boxes(std::span<math::Aabb const> boxes, Layer const& layer, std:
                  std::uint64_t found[run];
                  for (; begin < end; begin += run) {
                      std::size_t const n = std::min(run, end - begin);
-                     query_boxes(boxes.subspan(begin, n), layer, scratch, std::is_same_v<T, bool>, found);
+                     query_boxes(boxes.subspan(begin, n), layer, scratch, std::is_same_v<T, std::uint8_t>, found);
                      for (std::size_t i = 0; i < n; ++i) out[begin + i] = static_cast<T>(found[i]);
                  }
              });
@@ -333,7 +333,7 @@ void count_samples_passing(std::span<std::span<Draw const> const> meshes, Layer 
                            std::span<std::uint64_t> out, QueryWorkspace& workspace, core::ExecutorRef executor) {
     query_meshes(meshes, layer, out, workspace, executor);
 }
-void any_sample_passing(std::span<std::span<Draw const> const> meshes, Layer const& layer, std::span<bool> out,
+void any_sample_passing(std::span<std::span<Draw const> const> meshes, Layer const& layer, std::span<std::uint8_t> out,
                         QueryWorkspace& workspace, core::ExecutorRef executor) {
     query_meshes(meshes, layer, out, workspace, executor);
 }
@@ -341,7 +341,7 @@ void count_samples_passing(std::span<math::Aabb const> boxes, Layer const& layer
                            QueryWorkspace& workspace, core::ExecutorRef executor) {
     query_all_boxes(boxes, layer, out, workspace, executor);
 }
-void any_sample_passing(std::span<math::Aabb const> boxes, Layer const& layer, std::span<bool> out,
+void any_sample_passing(std::span<math::Aabb const> boxes, Layer const& layer, std::span<std::uint8_t> out,
                         QueryWorkspace& workspace, core::ExecutorRef executor) {
     query_all_boxes(boxes, layer, out, workspace, executor);
 }

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace {
@@ -114,13 +113,13 @@ void count_verdicts(BoxView& view, std::vector<math::Aabb> const& boxes, BoxCoun
     core::SerialExecutor serial;
     std::vector<BoxVerdict> verdict(boxes.size(), BoxVerdict::outside);
     std::vector<BoxVerdict> scalar(boxes.size(), BoxVerdict::visible);
-    auto const any = std::make_unique<bool[]>(boxes.size());
+    std::vector<std::uint8_t> any(boxes.size());
     test_boxes(boxes, view.layer, view.pyramid, verdict, serial);
     view.layer.config.kernel = Kernel::scalar;
     std::size_t const checked = std::min<std::size_t>(boxes.size(), 4000);
     test_boxes({boxes.data(), checked}, view.layer, view.pyramid, {scalar.data(), checked}, serial);
     view.layer.config.kernel = Kernel::automatic;
-    any_sample_passing(boxes, view.layer, {any.get(), boxes.size()}, workspace, serial);
+    any_sample_passing(boxes, view.layer, any, workspace, serial);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         BoxVerdict const v = verdict[i];
         ++counts.boxes;
@@ -128,7 +127,7 @@ void count_verdicts(BoxView& view, std::vector<math::Aabb> const& boxes, BoxCoun
         counts.hidden += v == BoxVerdict::hidden ? 1U : 0U;
         counts.visible += v == BoxVerdict::visible ? 1U : 0U;
         counts.unequal += i < checked && v != scalar[i] ? 1U : 0U;
-        if (any[i]) {
+        if (any[i] != 0) {
             counts.false_hidden += v != BoxVerdict::visible ? 1U : 0U;
         } else if (v != BoxVerdict::outside) {
             ++counts.truly_hidden;

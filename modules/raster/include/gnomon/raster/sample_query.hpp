@@ -61,18 +61,18 @@ class QueryWorkspace {
 /// Whether that number is above 0; stops at the first tile with such a sample.
 [[nodiscard]] bool any_sample_passing(std::span<Draw const> draws, Layer const& layer, QueryWorkspace& workspace);
 
-/// The same for each of many meshes, in parallel: `out[i]` for `meshes[i]`.
+/// The same for each of many meshes, in parallel: `out[i]` for `meshes[i]`; 1 or 0 for any.
 ///
 /// expects: `out` as long as `meshes`.
 void count_samples_passing(std::span<std::span<Draw const> const> meshes, Layer const& layer,
                            std::span<std::uint64_t> out, QueryWorkspace& workspace, core::ExecutorRef executor);
-void any_sample_passing(std::span<std::span<Draw const> const> meshes, Layer const& layer, std::span<bool> out,
+void any_sample_passing(std::span<std::span<Draw const> const> meshes, Layer const& layer, std::span<std::uint8_t> out,
                         QueryWorkspace& workspace, core::ExecutorRef executor);
 
 /// The same for boxes, drawn as `box_indices` says, both sides. An empty box, or one with a NaN, passes nowhere.
 void count_samples_passing(std::span<math::Aabb const> boxes, Layer const& layer, std::span<std::uint64_t> out,
                            QueryWorkspace& workspace, core::ExecutorRef executor);
-void any_sample_passing(std::span<math::Aabb const> boxes, Layer const& layer, std::span<bool> out,
+void any_sample_passing(std::span<math::Aabb const> boxes, Layer const& layer, std::span<std::uint8_t> out,
                         QueryWorkspace& workspace, core::ExecutorRef executor);
 
 /// Number of the rectangle's samples that a surface at `query.depth` would be nearest at.
