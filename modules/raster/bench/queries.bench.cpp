@@ -35,7 +35,8 @@ struct StreetView {
     bool air;
     math::View view;
     raster::Draw draw;
-    std::vector<float> depth;
+    std::vector<float> memory;
+    float* depth;  // On a cache line, as graphics memory is.
     std::vector<std::uint32_t> id;
     raster::DepthPyramid pyramid;
     raster::Workspace workspace;
@@ -50,13 +51,15 @@ struct StreetView {
                 .indices = std::span<std::uint32_t const>(city.indices),
                 .origin = math::to_float(view.eye_m),
                 .clip_from_relative = math::clip_from_relative(view)};
-        depth.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-        id.resize(depth.size());
+        std::size_t const pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+        memory.resize(pixels + 16);
+        depth = memory.data() + (64 - reinterpret_cast<std::uintptr_t>(memory.data()) % 64) / sizeof(float) % 16;
+        id.resize(pixels);
         core::SerialExecutor serial;
-        raster::camera_pass({&draw, 1}, {raster::make_image(depth.data(), size, size),
+        raster::camera_pass({&draw, 1}, {raster::make_image(depth, size, size),
                                          raster::make_image(id.data(), size, size)},
                             {.depth = view.depth, .pyramid = &pyramid}, workspace, serial);
-        layer.target = raster::make_image(depth.data(), size, size);
+        layer.target = raster::make_image(depth, size, size);
         layer.origin = draw.origin;
         layer.clip_from_relative = draw.clip_from_relative;
         layer.config.depth = view.depth;
@@ -223,7 +226,7 @@ enum class Pyramid { none, handed_out, alone };
 void depth_with_pyramid(benchmark::State& state, Pyramid how) {
     StreetView& s = street(state);
     core::SerialExecutor serial;
-    raster::DepthTarget const target = raster::make_image(s.depth.data(), s.size, s.size);
+    raster::DepthTarget const target = raster::make_image(s.depth, s.size, s.size);
     raster::PassConfig config{.depth = s.view.depth};
     raster::DepthPyramid pyramid;
     if (how == Pyramid::handed_out) config.pyramid = &pyramid;

@@ -276,7 +276,7 @@ class Pass {
                                  });
         }
         if (loaded) detail::store_tile(layer, job);
-        if (loaded && layer.summarizes) detail::summarize_tile(layer, job);
+        if (loaded && layer.summarizes) detail::summarize_tile(layer, job, batch.load == Load::clear && written == 0);
         return written;
     }
 

@@ -50,7 +50,10 @@ bool begin_layer(LayerPlan& plan, Layer const& layer) {
     if (plan.is_empty()) return false;
     plan.streams = plan.kernel->stream != nullptr && !layer.target.is_unorm16() &&
                    std::int64_t{whole.width} * whole.height >= streamed_pixels;
-    plan.grid = make_bin_grid(whole.width, whole.height, plan.streams ? columns_past_a_line(layer.target.f32()) : 0);
+    std::int32_t shift = plan.streams ? columns_past_a_line(layer.target.f32()) : 0;
+    // A pyramid's blocks must lie within tiles: worth more than stores past the caches.
+    if (config.pyramid != nullptr && shift % 8 != 0) shift = 0;
+    plan.grid = make_bin_grid(whole.width, whole.height, shift);
     plan.summarizes = hands_out_blocks(plan, layer);
     if (plan.summarizes) config.pyramid->fit(layer.target, config.depth);
     Rect const viewport = config.viewport.value_or(whole);

@@ -2,6 +2,8 @@
 
 #include "summary.hpp"
 
+#include "kernel.hpp"
+
 #include <limits>
 
 namespace gnomon::raster::detail {
@@ -35,6 +37,17 @@ struct RowPair {
     std::int32_t width;
 };
 
+void summarize_blocked(float const* first, float* least, float* greatest) {
+    for (std::int32_t b = 0; b < 8; ++b) {
+        float low[2];
+        float high[2];
+        for (std::int32_t half = 0; half < 2; ++half)  // Two blocks of 4 x 4 lie one after the other.
+            summarize_block({first + 32 * b + blocked_offset(0, 4 * half), 32, 32, 1}, 0, 32, low[half], high[half]);
+        least[b] = low[0] < low[1] ? low[0] : low[1];
+        greatest[b] = high[0] > high[1] ? high[0] : high[1];
+    }
+}
+
 /// Elements [x, ceil(width / 2)) of the halved row.
 template <class Pick>
 void halve_from(std::int32_t x, RowPair const& rows, float* out, Pick pick) {
@@ -58,7 +71,7 @@ void halve_greatest(float const* upper, float const* lower, std::int32_t width, 
 }  // namespace
 
 SummaryTable const& scalar_summary() noexcept {
-    static constexpr SummaryTable table{&summarize, &halve_least, &halve_greatest};
+    static constexpr SummaryTable table{&summarize, &summarize_blocked, &halve_least, &halve_greatest};
     return table;
 }
 
@@ -106,6 +119,25 @@ GNOMON_AVX2 void avx2_summarize(SampleRows const& rows, float* least, float* gre
         summarize_block(rows, x, x + 8 < rows.width ? x + 8 : rows.width, least[x >> 3], greatest[x >> 3]);
 }
 
+GNOMON_AVX2 void avx2_summarize_blocked(float const* first, float* least, float* greatest) {
+    __m256 low[8];
+    __m256 high[8];
+    for (int b = 0; b < 8; ++b) {
+        low[b] = all_of(infinity);
+        high[b] = all_of(-infinity);
+        for (int half = 0; half < 2; ++half) {
+            float const* const at = first + 32 * b + blocked_offset(0, 4 * half);
+            for (int i = 0; i < 32; i += 8) {
+                __m256 const z = _mm256_loadu_ps(at + i);
+                low[b] = _mm256_min_ps(z, low[b]);
+                high[b] = _mm256_max_ps(z, high[b]);
+            }
+        }
+    }
+    _mm256_storeu_ps(least, reduced<true>(low));
+    _mm256_storeu_ps(greatest, reduced<false>(high));
+}
+
 template <bool Least>
 GNOMON_AVX2_INLINE __m256 pick(__m256 a, __m256 b) {
     return Least ? _mm256_min_ps(a, b) : _mm256_max_ps(a, b);
@@ -127,7 +159,8 @@ GNOMON_AVX2 void avx2_halve(float const* upper, float const* lower, std::int32_t
 }  // namespace
 
 SummaryTable const& best_summary() noexcept {
-    static constexpr SummaryTable table{&avx2_summarize, &avx2_halve<true>, &avx2_halve<false>};
+    static constexpr SummaryTable table{&avx2_summarize, &avx2_summarize_blocked, &avx2_halve<true>,
+                                        &avx2_halve<false>};
     return __builtin_cpu_supports("avx2") ? table : scalar_summary();
 }
 

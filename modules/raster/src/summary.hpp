@@ -17,6 +17,8 @@ struct SampleRows {
 struct SummaryTable {
     /// Writes the least and greatest depths of the ceil(width / 8) blocks; NaN counts as no sample.
     void (*summarize)(SampleRows const&, float* least, float* greatest);
+    /// The same of eight rows of a whole tile in blocks of 4 x 4 samples (`blocked_offset`): eight blocks.
+    void (*summarize_blocked)(float const* first, float* least, float* greatest);
     /// Writes the least or the greatest of each two by two of `width` columns of two rows (the second may be the first
     /// again): ceil(width / 2) elements.
     void (*halve_least)(float const* upper, float const* lower, std::int32_t width, float* out);

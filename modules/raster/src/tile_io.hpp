@@ -84,16 +84,33 @@ inline void store_tile(LayerPlan const& layer, TileJob const& job) {
 }
 
 /// Writes the tile's blocks to the layer's pyramid, while the tile is still in the nearest cache.
-inline void summarize_tile(LayerPlan const& layer, TileJob const& job) {
+///
+/// `empty`: every sample is as `load_tile` cleared it.
+inline void summarize_tile(LayerPlan const& layer, TileJob const& job, bool empty) {
     DepthPyramid& pyramid = *layer.layer->config.pyramid;
     ImageView<float> const least = pyramid.least(0);
     ImageView<float> const greatest = pyramid.greatest(0);
+    if (empty) {
+        for (std::int32_t y = job.y0 >> 3; y < (job.y1 + 7) >> 3; ++y) {
+            std::int32_t const blocks = (job.x1 - job.x0 + 7) >> 3;
+            std::fill_n(least.row(y) + (job.x0 >> 3), blocks, job.depth[0]);
+            std::fill_n(greatest.row(y) + (job.x0 >> 3), blocks, job.depth[0]);
+        }
+        return;
+    }
+    SummaryTable const& summary = best_summary();
+    if (job.blocked && job.x1 - job.x0 == tile_size && job.y1 - job.y0 == tile_size) {
+        for (std::int32_t row = 0; row < tile_size; row += 8)
+            summary.summarize_blocked(job.depth + blocked_offset(0, row), least.row((job.y0 + row) >> 3) + (job.x0 >> 3),
+                                      greatest.row((job.y0 + row) >> 3) + (job.x0 >> 3));
+        return;
+    }
     TileInRows<float> scratch;
     float const* const depth = scratch.from(*layer.kernel, job.depth);
     for (std::int32_t y = job.y0; y < job.y1; y += 8) {
         SampleRows const rows{depth + std::ptrdiff_t{y - job.y0} * tile_pitch, tile_pitch, job.x1 - job.x0,
                               std::min(8, job.y1 - y)};
-        best_summary().summarize(rows, least.row(y >> 3) + (job.x0 >> 3), greatest.row(y >> 3) + (job.x0 >> 3));
+        summary.summarize(rows, least.row(y >> 3) + (job.x0 >> 3), greatest.row(y >> 3) + (job.x0 >> 3));
     }
 }
 
