@@ -177,6 +177,99 @@ TEST_CASE("no box that passes at a sample is called hidden, and nine of ten hidd
     if (counts.found * 100 < counts.truly_hidden * 90) print(counts, 0.0);
 }
 
+TEST_CASE("boxes across many blocks of a large image are tested as well as small ones", "[raster][boxes]") {
+    BoxCounts const counts = compare_with_truth(4, 1500, 1300);
+    CHECK(counts.found * 100 >= counts.truly_hidden * 90);
+}
+
+TEST_CASE("verdicts do not depend on threads, and without an image they are of blocks", "[raster][boxes][determinism]") {
+    query::Street const street(91, 150);
+    BoxView view = make_box_view(street, 0, 230);
+    Random random{92};
+    std::vector<math::Aabb> boxes(5000);
+    for (math::Aabb& box : boxes) box = make_query_box(random, street);
+    core::SerialExecutor serial;
+    core::ThreadExecutor pool(3);
+    std::vector<BoxVerdict> one(boxes.size());
+    std::vector<BoxVerdict> many(boxes.size());
+    std::vector<BoxVerdict> coarse(boxes.size());
+    test_boxes(boxes, view.layer, view.pyramid, one, serial);
+    test_boxes(boxes, view.layer, view.pyramid, many, pool);
+    CHECK(one == many);
+    Layer without = view.layer;
+    without.target = ImageView<float>{nullptr, view.view.size_px.x, view.view.size_px.y, 0};
+    test_boxes(boxes, without, view.pyramid, coarse, serial);
+    int more = 0;
+    int wrong = 0;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        more += coarse[i] == BoxVerdict::visible && one[i] != BoxVerdict::visible ? 1 : 0;
+        wrong += coarse[i] != BoxVerdict::visible && one[i] == BoxVerdict::visible ? 1 : 0;
+        if (i < 50) CHECK(test_box(boxes[i], view.layer, view.pyramid) == one[i]);
+    }
+    CHECK(wrong == 0);
+    CHECK(more > 0);
+}
+
+TEST_CASE("boxes in parts of the image, in viewports that stick out, and in tiny images keep to the rule",
+          "[raster][boxes]") {
+    query::Street const street(93, 150);
+    Random random{94};
+    QueryWorkspace workspace;
+    BoxCounts counts;
+    for (int round = 0; round < 12; ++round) {
+        BoxView view = make_box_view(street, round, round % 4 == 3 ? 22 : 180);
+        view.layer.config.pyramid = nullptr;
+        if (round % 4 == 0) view.layer.config.scissor = Rect{21, 13, 90, 100};
+        if (round % 4 == 1) view.layer.config.viewport = Rect{-50, -333, 700, 640};
+        if (round % 4 == 2) view.layer.config.viewport = Rect{30, 20, 64, 300};
+        Draw const draw = street.draw(view.view);
+        Workspace passes;
+        core::SerialExecutor serial;
+        layered_pass({&draw, 1}, {&view.layer, 1}, passes, serial);
+        build_pyramid(view.layer.target, view.view.depth, view.pyramid, serial);
+        std::vector<math::Aabb> boxes(2000);
+        for (math::Aabb& box : boxes) box = make_query_box(random, street);
+        count_verdicts(view, boxes, counts, workspace);
+        CAPTURE(round);
+        CHECK(counts.false_hidden == 0);
+        CHECK(counts.unequal == 0);
+    }
+    CHECK(counts.found * 100 >= counts.truly_hidden * 90);
+    CHECK(counts.visible > 500);
+}
+
+TEST_CASE("boxes that hold nothing are outside, and those that cannot be projected are visible", "[raster][boxes]") {
+    query::Street const street(95, 100);
+    BoxView view = make_box_view(street, 0, 64);
+    float const nan = std::numeric_limits<float>::quiet_NaN();
+    float const inf = std::numeric_limits<float>::infinity();
+    math::vec3 const eye = view.layer.origin;
+    std::vector<math::Aabb> const boxes{
+        {},
+        {math::vec3(nan), math::vec3(1)},
+        {math::vec3(0, nan, 0), math::vec3(1)},
+        {math::vec3(1), math::vec3(-1)},
+        {eye + math::vec3(-1, -1, 5), eye + math::vec3(1, 1, 6)},        // Behind.
+        {eye + math::vec3(500, 0, -100), eye + math::vec3(501, 1, -99)},  // Beside.
+        {math::vec3(-inf), math::vec3(inf)},
+        {eye - math::vec3(1), eye + math::vec3(1)},                       // Around the eye.
+        {math::vec3(-3e38F), math::vec3(3e38F)},
+        {eye + math::vec3(-1e5F, -1, -3), eye + math::vec3(1e5F, 1, -2)},  // Through the guard band.
+        {eye + math::vec3(-1, -1, -5e4F), eye + math::vec3(1, 1, -4e4F)},  // Beyond the far plane.
+    };
+    for (Kernel const kernel : {Kernel::scalar, Kernel::simd}) {
+        view.layer.config.kernel = kernel;
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            BoxVerdict const verdict = test_box(boxes[i], view.layer, view.pyramid);
+            CAPTURE(i);
+            CHECK(verdict == (i < 6 || i == 10 ? BoxVerdict::outside : BoxVerdict::visible));
+        }
+        Layer nothing = view.layer;
+        nothing.config.scissor = Rect{5, 5, 0, 3};
+        CHECK(test_box(boxes[7], nothing, view.pyramid) == BoxVerdict::outside);
+    }
+}
+
 TEST_CASE("no box of ten million that passes at a sample is called hidden", "[.full][raster][boxes]") {
     auto const start = std::chrono::steady_clock::now();
     BoxCounts const counts = compare_with_truth(200, 50'000, 256);
