@@ -30,6 +30,11 @@ inline constexpr std::array<PathInfo, 3> town_paths{{
 inline constexpr std::array<PathInfo, 1> forest_paths{{{"walk", "along the trail at 1.5 m/s", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> fuzzy_paths{{{"walk", "up to the cloud and along its front", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> poles_paths{{{"walk", "between two rows at 1.6 m/s", 300, path_rate_hz}}};
+inline constexpr std::array<PathInfo, 1> houses_paths{{{"zoom", "from 300 m away through a front door", 300, path_rate_hz}}};
+inline constexpr std::array<PathInfo, 1> robots_paths{{{"bart", "down the street over the robots' heads", 300, 5.0}}};
+inline constexpr std::array<PathInfo, 1> necropolis_paths{{{"map", "from far off through the gate into the hall", 600, path_rate_hz}}};
+inline constexpr std::array<LightSetInfo, 2> robots_lights{{{"many", 924}, {"few", 11}}};
+inline constexpr std::array<LightSetInfo, 2> necropolis_lights{{{"all", 376}, {"static", 275}}};
 
 /// expects: the name fits, the budget is not 0, `lights` is empty only where there are no sets to choose from, options
 ///          that the scene does not take are at their defaults.
@@ -41,9 +46,15 @@ Result<Scene> make_forest(ProceduralConfig const& config);
 Result<CameraPath> make_forest_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_fuzzy(ProceduralConfig const& config);
 Result<CameraPath> make_fuzzy_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_houses(ProceduralConfig const& config);
+Result<CameraPath> make_houses_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_necropolis(ProceduralConfig const& config);
+Result<CameraPath> make_necropolis_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_poles(ProceduralConfig const& config);
 Result<CameraPath> make_poles_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_rayyard(ProceduralConfig const& config);
+Result<Scene> make_robots(ProceduralConfig const& config);
+Result<CameraPath> make_robots_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_sheet(ProceduralConfig const& config);
 Result<Scene> make_tree(ProceduralConfig const& config);
 Result<Scene> make_town(ProceduralConfig const& config);
