@@ -206,6 +206,9 @@ class Pass {
 
     void set_up_chunk(Chunk& chunk) {
         chunk.counts = {};
+        // Room for all, so that a camera that sees more than the last one asks for no memory.
+        std::size_t const triangles = chunk.end - chunk.begin;
+        chunk.records.fit(triangles + triangles / 8);
         detail::RecordSink sink{chunk.records.data(), 0, chunk.records.capacity(), &chunk,
                                 [](detail::RecordSink& s, std::size_t more) {
                                     Buffer<Record>& records = static_cast<Chunk*>(s.owner)->records;
@@ -220,7 +223,7 @@ class Pass {
             begin = stop;
         }
         detail::sort_into_bins(chunk.layer->grid, sink.data, sink.size, state_.bins.data() + chunk.first_bin,
-                               [&](std::size_t n) { return chunk.entries.fit(n); });
+                               [&](std::size_t n) { return chunk.entries.fit(std::max(n, 4 * triangles)); });
     }
 
     void draw_tiles() {

@@ -470,6 +470,29 @@ TEST_CASE("an alpha test cuts holes where the texture is clear", "[raster][alpha
     CHECK(canvas.id[32 * 64 + 20] != no_triangle);
 }
 
+TEST_CASE("a path of cameras allocates nothing after its first frame", "[raster][memory]") {
+    Mixed const scene(33, 4000);
+    std::vector<Draw> draws = scene.draws();
+    Canvas canvas(256, 256);
+    core::SerialExecutor serial;
+    auto const draw_frame = [&](int frame) {
+        for (Draw& draw : draws) {
+            // Starts looking at nothing, goes into the scene and through it.
+            draw.origin = math::vec3{frame == 0 ? 1000.0F : 0.2F * static_cast<float>(frame) - 2.0F,
+                                     0.1F * static_cast<float>(frame) - 1.0F, 4.0F - 0.4F * static_cast<float>(frame)};
+        }
+        PassStats const seen = camera_pass(draws, canvas.target(), {}, canvas.workspace, serial);
+        depth_pass(draws, make_image(canvas.depth.data(), 256, 256), {}, canvas.workspace, serial);
+        return seen.drawn;
+    };
+    CHECK(draw_frame(0) == 0);
+    std::uint64_t const before = allocations_made();
+    std::uint64_t most = 0;
+    for (int frame = 1; frame < 20; ++frame) most = std::max(most, draw_frame(frame));
+    CHECK(allocations_made() == before);
+    CHECK(most > 1000);
+}
+
 TEST_CASE("a second pass of the same size allocates nothing", "[raster][memory]") {
     Mixed const scene(31, 4000);
     std::vector<Draw> const draws = scene.draws();

@@ -67,7 +67,8 @@ struct PassStats {
 
 /// Memory that a pass works in. Kept between passes it stops growing: after warm-up nothing is allocated.
 ///
-/// One pass at a time. About 16 bytes a vertex and 80 a triangle that covers a sample.
+/// One pass at a time. About 16 bytes a vertex and 110 a triangle, of at most a million triangles at a time. Triangles
+/// that the clipper cuts into many, or that touch many tiles, can ask for more.
 class Workspace {
   public:
     Workspace();
