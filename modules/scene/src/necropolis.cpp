@@ -85,8 +85,10 @@ void add_spirits(Scene& scene, NecropolisPaints const& paints, Pcg32& random) {
     std::uint32_t const mesh = add_mesh(scene, "spirit", make_spirit(paints));
     for (std::uint32_t i = 0; i < spirits; ++i) {
         bool const in_hall = i % 4 == 0;
-        dvec3 const middle(random.uniform(in_hall ? -2.0 : -60.0, in_hall ? 2.0 : 60.0), random.uniform(6.0, 9.0),
-                           in_hall ? hall_front_z - random.uniform(12.0, 55.0) : random.uniform(hall_front_z + 20.0, 70.0));
+        dvec3 middle;  // drawn one by one: the order in which arguments are evaluated is the compiler's
+        middle.z = in_hall ? hall_front_z - random.uniform(12.0, 55.0) : random.uniform(hall_front_z + 20.0, 70.0);
+        middle.y = random.uniform(6.0, 9.0);
+        middle.x = random.uniform(in_hall ? -2.0 : -60.0, in_hall ? 2.0 : 60.0);
         double const radius = random.uniform(1.0, in_hall ? 2.5 : 8.0);
         double const phase = random.uniform();
         double const way_round = i % 2 == 0 ? 1.0 : -1.0;

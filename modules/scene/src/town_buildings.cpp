@@ -144,7 +144,8 @@ void add_dormer(Site& site, double x, double eaves_y, double front_z) {
 
 void make_cottage(Site& site) {
     Floors floors;
-    floors.half = dvec2(site.random.uniform(4.6, 6.2), site.random.uniform(4.0, 4.8));
+    floors.half.y = site.random.uniform(4.0, 4.8);
+    floors.half.x = site.random.uniform(4.6, 6.2);
     floors.count = site.random.below(3) == 0 ? 1 : 2;
     floors.front = {3, 1.15};
     floors.side = {site.random.below(4) == 0 ? 2 : 1, 1.0};
@@ -175,7 +176,8 @@ void make_cottage(Site& site) {
 
 void make_terrace(Site& site) {
     Floors floors;
-    floors.half = dvec2(site.random.uniform(5.4, 7.2), site.random.uniform(5.0, 6.0));
+    floors.half.y = site.random.uniform(5.0, 6.0);
+    floors.half.x = site.random.uniform(5.4, 7.2);
     floors.count = 3;
     floors.height = 3.2;
     floors.head = 2.6;
@@ -207,7 +209,8 @@ void make_terrace(Site& site) {
 
 void make_flats(Site& site) {
     Floors floors;
-    floors.half = dvec2(site.random.uniform(7.4, 8.6), site.random.uniform(5.2, 6.2));
+    floors.half.y = site.random.uniform(5.2, 6.2);
+    floors.half.x = site.random.uniform(7.4, 8.6);
     floors.count = 4 + static_cast<int>(site.random.below(2));
     floors.height = 3.1;
     floors.sill = 0.7;

@@ -71,7 +71,9 @@ Mesh make_bare_tree(Paints const& p, Pcg32& random) {
     for (int i = 0; i < 4; ++i) {
         dvec3 const way = level_direction(first + i * 0.25 + random.uniform(-0.05, 0.05));
         dvec3 const from(0.02, 1.15 + 0.24 * i, 0.0);
-        dvec3 const to = from + way * random.uniform(0.5, 0.75) + dvec3(0.0, random.uniform(0.5, 0.75), 0.0);
+        double const rise = random.uniform(0.5, 0.75);
+        double const reach = random.uniform(0.5, 0.75);
+        dvec3 const to = from + way * reach + dvec3(0.0, rise, 0.0);
         out.tube({from, to, 0.035, 0.016, 4}, p.bark);
         for (int twig = 0; twig < 2; ++twig) {
             dvec3 const start = from + (to - from) * (0.5 + 0.4 * twig);
@@ -222,7 +224,8 @@ private:
             double const x = random_.uniform(9.0, 91.0);
             double const z = park ? random_.uniform(9.0, 51.0) : random_.uniform(29.3, 30.7);
             if (kind_of(block) == Block::market) continue;
-            stand("tree", meshes[random_.below(variants)], block_point(block, {x, z}), random_.uniform());
+            double const turns = random_.uniform();
+            stand("tree", meshes[random_.below(variants)], block_point(block, {x, z}), turns);
             ++planted;
         }
     }
