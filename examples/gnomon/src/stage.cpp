@@ -55,8 +55,9 @@ Outcome<LoadedScene> load_file(SceneOptions const& options) {
     std::string text = short_name(path);
     if (options.file_scene) {
         auto const number = integer_from(*options.file_scene);
-        if (!number || *number < 1) return usage_error("--file-scene: a number from 1");
-        config.scene_index = static_cast<std::uint32_t>(*number - 1);
+        bool const counts = number && *number >= 1 && *number < scene::none;
+        if (counts) config.scene_index = static_cast<std::uint32_t>(*number - 1);
+        if (!counts) config.scene_name = *options.file_scene;
         text += " --file-scene " + *options.file_scene;
     }
     auto loaded = scene::load_gltf(path, config);

@@ -1,4 +1,4 @@
-// Paths, with the real binary on a small scene.
+// Paths, with the real binary on a small scene that slides.
 
 #include "fixtures.hpp"
 #include "process.hpp"
@@ -23,12 +23,29 @@ std::string first_error(json const& results) {
     return errors.empty() ? "" : errors.front();
 }
 
+/// The table, whose instance slides by 1 m along x within 2 s.
+std::string write_sliding_table(TestFolder const& folder) {
+    gnomon::scene::Scene scene = table_with_lid();
+    gnomon::scene::Node node;
+    node.name = "slide";
+    scene.nodes.push_back(node);
+    scene.instances[0].node = 0;
+    gnomon::scene::AnimationChannel channel;
+    channel.node = 0;
+    channel.times_s = {0.0F, 2.0F};
+    channel.values = {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F};
+    scene.animations.push_back({"slide", {channel}});
+    gnomon::scene::settle(scene);
+    std::string const path = (folder / "sliding.glb").string();
+    return gnomon::scene::write_gltf(scene, path) ? path : "could not write " + path;
+}
+
 }  // namespace
 
 TEST_CASE("a flight leaves a film, pictures, a page and a table of every frame", "[command][flight]") {
     TestFolder const folder;
     Ended const ended =
-        gnomon_in(folder.path(), {"flythrough", write_table(folder), "--path", "orbit", "--frames", "4",
+        gnomon_in(folder.path(), {"flythrough", write_sliding_table(folder), "--path", "orbit", "--frames", "4",
                                   "--techniques", "shadow-map,ray", "--size", "64x48", "--out", "out"});
     CAPTURE(ended.err, ended.out);
     REQUIRE(ended.exit_code == 0);
@@ -68,7 +85,25 @@ TEST_CASE("a flight leaves a film, pictures, a page and a table of every frame",
     for (auto const& entry : fs::directory_iterator(folder / "out")) found.push_back(entry.path().filename().string());
     std::sort(found.begin(), found.end());
     CHECK(found == listed);
-    CHECK(folder.entries() == std::vector<std::string>{"out", "table.glb"});
+    CHECK(folder.entries() == std::vector<std::string>{"out", "sliding.glb"});
+}
+
+TEST_CASE("a frame of a flight has the errors of the same view at the same time", "[command][flight]") {
+    TestFolder const folder;
+    std::string const scene = write_sliding_table(folder);
+    std::vector<std::string> const eye = {"--eye", "3,4,5", "--look", "0,0.1,0", "--size", "64x48"};
+    std::vector<std::string> film = {"flythrough", scene, "--frames", "31", "--out", "film"};
+    std::vector<std::string> still = {"compare", scene, "--techniques", "shadow-map", "--time", "1", "--out", "still"};
+    film.insert(film.end(), eye.begin(), eye.end());
+    still.insert(still.end(), eye.begin(), eye.end());
+    REQUIRE(gnomon_in(folder.path(), film).exit_code == 0);
+    REQUIRE(gnomon_in(folder.path(), still).exit_code == 0);
+    json const frames = flight_results(folder / "film")["runs"][0]["frames"];
+    json const one = flight_results(folder / "still")["runs"][0];
+    REQUIRE(frames.size() == 31);
+    CHECK(frames[30]["error"] == one["error"]);
+    CHECK(frames[0]["error"] != frames[30]["error"]);
+    CHECK(contains(one["view"], "--time 1"));
 }
 
 TEST_CASE("compare and render fly too; without the truth there are no errors", "[command][flight]") {
