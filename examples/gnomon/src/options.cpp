@@ -51,6 +51,8 @@ Outcome<SceneOptions> scene_options(RawOptions const& raw) {
                  [](std::string const& t) { return read_real("--offset", t, any_metres); });
     if (raw.lights && !options.tuned_by) options.tuned_by = "--lights";
     if (raw.moving && !options.tuned_by) options.tuned_by = "--moving";
+    if (raw.trees && !options.tuned_by) options.tuned_by = "--trees";
+    options.config.trees = raw.trees;
     options.config.lights = raw.lights.value_or("");
     take<double>(raw.moving, options.config.moving_percent, error,
                  [](std::string const& t) { return read_real("--moving", t, {0.0, 100.0, "%"}); });

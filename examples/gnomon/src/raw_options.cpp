@@ -26,6 +26,7 @@ void add_scene(CLI::App& app, RawOptions& raw, bool required) {
     add("--offset", raw.offset, "sheet: moved by this many metres along x, y and z", "M");
     add("--lights", raw.lights, "a light set of the scene, or how many lights", "NAME|N");
     add("--moving", raw.moving, "town: this share of the props moves, percent", "P");
+    app.add_flag("--trees", raw.trees, "atrium: twelve bare trees in the court")->group("Built-in scenes");
     add("--seed", raw.seed, "random seed; left out: the scene's fixed one", "N");
     app.add_option("--file-scene", raw.file_scene, "one of several scenes of a glTF file, by name or number from 1; left out: its default")
         ->type_name("NAME");

@@ -33,6 +33,7 @@ std::string list_of_scenes() {
         if (info.takes_blocks) options.emplace_back("--blocks");
         if (info.takes_offset) options.emplace_back("--offset");
         if (info.max_moving_percent > 0.0) options.emplace_back("--moving");
+        if (info.takes_trees) options.emplace_back("--trees");
         if (info.max_lights > 0) options.emplace_back("--lights N");
         rows.push_back({std::string(info.name), join(options, " "), join(names_of(info.paths), " "),
                         join(names_of(info.light_sets), " "), grouped(info.default_triangles)});
@@ -43,8 +44,11 @@ std::string list_of_scenes() {
 }
 
 std::string names_and_count(auto const& things) {
+    constexpr std::size_t shown = 12;
     std::vector<std::string> names;
-    for (auto const& thing : things) names.push_back(thing.name.empty() ? "(no name)" : thing.name);
+    for (std::size_t i = 0; i < std::min(things.size(), shown); ++i)
+        names.push_back(things[i].name.empty() ? "(no name)" : things[i].name);
+    if (things.size() > shown) names.emplace_back("...");
     return things.empty() ? "none" : fmt::format("{}: {}", things.size(), join(names));
 }
 

@@ -34,6 +34,7 @@ Outcome<LoadedScene> load_built_in(SceneOptions const& options) {
     if (config.offset_m != 0.0) text += fmt::format(" --offset {:.10g}", config.offset_m);
     if (config.seed != 0) text += fmt::format(" --seed {}", config.seed);
     if (!config.lights.empty()) text += fmt::format(" --lights {}", config.lights);
+    if (config.trees) text += " --trees";
     if (config.moving_percent != 0.0) text += fmt::format(" --moving {:.10g}", config.moving_percent);
     return LoadedScene{*std::move(made), text, true};
 }

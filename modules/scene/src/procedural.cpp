@@ -16,10 +16,25 @@ using detail::Generator;
 
 /// In alphabetical order.
 constexpr std::array generators{
+    Generator{{.name = "atrium",
+               .description = "two storeys of arcades round a court, 40x25x20 m; --trees; --lights sponza65, million or a number",
+               .default_triangles = 250'000,
+               .takes_trees = true,
+               .paths = detail::atrium_paths,
+               .light_sets = detail::atrium_lights,
+               .max_lights = detail::atrium_million},
+              detail::make_atrium,
+              detail::make_atrium_path},
     Generator{{.name = "cage",
                .description = "a bird cage on a table under one lamp: thin bars that overlap; views A, B, C",
                .default_triangles = 12'000},
               detail::make_cage},
+    Generator{{.name = "citadel",
+               .description = "a walled hill town with towers, stairs and a keep; its closed-looking objects have open edges",
+               .default_triangles = 60'000,
+               .paths = detail::citadel_paths},
+              detail::make_citadel,
+              detail::make_citadel_path},
     Generator{{.name = "city",
                .description = "1260 buildings on a square kilometre, 8-78 m high; --triangles 52000, 254000, 1010000; "
                               "--blocks up to 10M",
@@ -46,6 +61,12 @@ constexpr std::array generators{
                .paths = detail::fuzzy_paths},
               detail::make_fuzzy,
               detail::make_fuzzy_path},
+    Generator{{.name = "gate",
+               .description = "a house 80 m away behind an avenue of bare trees, seen through a gate 4 m away; lamp, low sun",
+               .default_triangles = 88'000,
+               .paths = detail::gate_paths},
+              detail::make_gate,
+              detail::make_gate_path},
     Generator{{.name = "houses",
                .description = "1000 equal houses on a grid, with rooms inside, and 256 lights; --triangles 60000, 1010000",
                .default_triangles = 1'010'000,
@@ -161,6 +182,7 @@ Result<ProceduralConfig> complete(ProceduralConfig const& config, ProceduralInfo
     if (!(config.moving_percent >= 0.0 && config.moving_percent <= info.max_moving_percent))
         return bad("in " + config.name + ' ' + std::to_string(config.moving_percent) + " % cannot move; give " +
                    (info.max_moving_percent > 0.0 ? "0 to " + std::to_string(info.max_moving_percent) : "0"));
+    if (config.trees && !info.takes_trees) return bad(config.name + " has the trees it has; leave out the others");
     auto lights = choose_lights(info, config.lights);
     if (!lights) return std::move(lights).failure();
     ProceduralConfig full = config;

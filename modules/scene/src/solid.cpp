@@ -1,5 +1,6 @@
 #include "detail/solid.hpp"
 
+#include "detail/generators.hpp"
 #include "detail/grid_mesh.hpp"
 #include "detail/turn.hpp"
 
@@ -146,6 +147,24 @@ void add_spandrel(Solid& out, Arch const& arch, double half_width_m, double top_
     add_loft(out, rings);
 }
 
+void add_frame(Solid& out, dvec3 const& middle_m, std::span<Storey const> section, std::uint32_t steps) {
+    constexpr std::array<math::ivec2, 4> corners{{{1, 1}, {1, -1}, {-1, -1}, {-1, 1}}};
+    std::vector<Ring> rings;
+    for (std::size_t side = 0; side < 4; ++side)
+        for (std::uint32_t i = 0; i < steps; ++i) {
+            double const t = static_cast<double>(i) / steps;
+            math::ivec2 const from = corners[side];
+            math::ivec2 const to = corners[(side + 1) % 4];
+            double const x = from.x + (to.x - from.x) * t;
+            double const z = from.y + (to.y - from.y) * t;
+            Ring ring;
+            for (std::size_t k = section.size(); k-- > 0;)
+                ring.push_back(middle_m + dvec3(x * section[k].half_x_m, section[k].y_m, z * section[k].half_z_m));
+            rings.push_back(std::move(ring));
+        }
+    add_loft(out, rings, Ends::loop);
+}
+
 Placement turned_by(double turns, dvec3 const& origin, double scale) noexcept {
     SinCos const a = sin_cos(turns);
     return {origin, dvec3(a.cos, 0.0, -a.sin) * scale, dvec3(0.0, scale, 0.0), dvec3(a.sin, 0.0, a.cos) * scale};
@@ -258,6 +277,16 @@ void add_solid(Mesh& mesh, Solid const& solid, std::uint32_t material, double cr
             out.indices.push_back(pool.index_of(out, point, math::to_float(unit_or_up(sum))));
         }
     }
+}
+
+std::uint32_t add_solid_mesh(Scene& scene, std::string name, Solid const& solid, std::uint32_t material) {
+    Mesh mesh;
+    add_solid(mesh, solid, material);
+    return add_mesh(scene, std::move(name), std::move(mesh));
+}
+
+void add_solid_object(Scene& scene, std::string const& name, Solid const& solid, std::uint32_t material) {
+    add_instance(scene, name, add_solid_mesh(scene, name, solid, material), dvec3(1.0), dvec3(0.0));
 }
 
 }  // namespace gnomon::scene::detail

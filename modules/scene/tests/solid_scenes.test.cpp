@@ -33,8 +33,10 @@ struct SolidScene {
 
 std::vector<SolidScene> solid_scenes() {
     return {
+        {"atrium", 250'918, 6953867976954392509U, {}},
         {"cage", 12'000, 2303780379613837607U, {}},
         {"forest", 599'992, 542227219060939942U, {"ground", "ferns"}},
+        {"gate", 87'988, 13399590078521868671U, {"lawn"}},
         {"poles", 96'192, 4718232516195392984U, {"plane"}},
         {"tree", 40'066, 2026464555207442703U, {}},
     };
@@ -99,6 +101,44 @@ TEST_CASE("the fuzz is 400,000 single triangles with sides of 0.1 m, inside 40x2
     CHECK(wrong == 0);
     CHECK(s.lights.at(0).position_m == math::dvec3(11.3, 40.7, -17.9));
     CHECK(s.cameras.at(0).eye_m == math::dvec3(-3.1, 1.7, -52.3));
+}
+
+TEST_CASE("the citadel's objects look closed and are open", "[scene][solids]") {
+    scene::Scene const s = built({"citadel"});
+    CHECK(scene::count_triangles(s) == 59'980);
+    CHECK(test::fingerprint(s) == 10659490691566795848U);
+    for (std::string const name : {"tower", "wall", "stairs", "house", "keep", "keep roof", "gatehouse", "pine", "hill"}) {
+        CAPTURE(name);
+        std::size_t found = 0;
+        for (scene::Mesh const& mesh : s.meshes) {
+            if (mesh.name != name) continue;
+            ++found;
+            test::EdgeFacts const facts = test::edge_facts(s, mesh);
+            CHECK(facts.degenerate == 0);
+            CHECK(facts.open > 0);
+            CHECK(facts.closed > 0);
+            CHECK(facts.open + facts.closed == facts.edges);
+            if (name != "stairs") CHECK(facts.closed > facts.open);  // an open edge is the exception
+        }
+        CHECK(found > 0);
+    }
+}
+
+TEST_CASE("the gate is 4 m before the eye and the house 80 m, with 30 trees between", "[scene][solids]") {
+    scene::Scene const s = built({"gate"});
+    double const eye_z = s.cameras.at(0).eye_m.z;
+    std::size_t trees = 0;
+    for (scene::Instance const& i : s.instances) {
+        double const away = eye_z - i.world_from_mesh[3].z;
+        if (i.name == "pillars") CHECK(std::abs(away - 4.0) < 1e-9);
+        if (i.name == "house walls") CHECK(std::abs(away - 80.0) < 1e-9);
+        if (i.name != "tree") continue;
+        ++trees;
+        CHECK(away > 4.0);
+        CHECK(away < 80.0);
+    }
+    CHECK(trees == 30);
+    CHECK(s.lights.size() == 2);
 }
 
 TEST_CASE("poles are as thick and as high as is fixed, and so many", "[scene][solids]") {

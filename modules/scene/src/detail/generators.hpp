@@ -27,8 +27,16 @@ inline constexpr std::array<PathInfo, 3> town_paths{{
     {"both", "along the street, spinning", 150, path_rate_hz},
 }};
 
+inline constexpr std::array<PathInfo, 2> atrium_paths{{
+    {"fly", "through the galleries and up across the court", 300, path_rate_hz},
+    {"still", "the view `still`, without moving", 300, path_rate_hz},
+}};
+inline constexpr std::uint32_t atrium_million = 1'048'576;
+inline constexpr std::array<LightSetInfo, 3> atrium_lights{{{"sun", 1}, {"sponza65", 65}, {"million", atrium_million}}};
+inline constexpr std::array<PathInfo, 1> citadel_paths{{{"fly", "round the walls and in over them to the keep", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> forest_paths{{{"walk", "along the trail at 1.5 m/s", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> fuzzy_paths{{{"walk", "up to the cloud and along its front", 300, path_rate_hz}}};
+inline constexpr std::array<PathInfo, 1> gate_paths{{{"pass", "through the gate and up the drive at 2.4 m/s", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> poles_paths{{{"walk", "between two rows at 1.6 m/s", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> houses_paths{{{"zoom", "from 300 m away through a front door", 300, path_rate_hz}}};
 inline constexpr std::array<PathInfo, 1> robots_paths{{{"bart", "down the street over the robots' heads", 300, 5.0}}};
@@ -38,14 +46,20 @@ inline constexpr std::array<LightSetInfo, 2> necropolis_lights{{{"all", 376}, {"
 
 /// expects: the name fits, the budget is not 0, `lights` is empty only where there are no sets to choose from, options
 ///          that the scene does not take are at their defaults.
+Result<Scene> make_atrium(ProceduralConfig const& config);
+Result<CameraPath> make_atrium_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_city(ProceduralConfig const& config);
 Result<CameraPath> make_city_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_cage(ProceduralConfig const& config);
+Result<Scene> make_citadel(ProceduralConfig const& config);
+Result<CameraPath> make_citadel_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_cubes(ProceduralConfig const& config);
 Result<Scene> make_forest(ProceduralConfig const& config);
 Result<CameraPath> make_forest_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_fuzzy(ProceduralConfig const& config);
 Result<CameraPath> make_fuzzy_path(ProceduralConfig const& config, PathInfo const& path);
+Result<Scene> make_gate(ProceduralConfig const& config);
+Result<CameraPath> make_gate_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_houses(ProceduralConfig const& config);
 Result<CameraPath> make_houses_path(ProceduralConfig const& config, PathInfo const& path);
 Result<Scene> make_necropolis(ProceduralConfig const& config);

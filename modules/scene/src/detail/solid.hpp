@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace gnomon::scene::detail {
@@ -77,6 +78,10 @@ void add_arch(Solid& out, Arch const& arch);
 /// expects: half_width_m > inner_m, the top above springing + inner_m, steps a multiple of 4.
 void add_spandrel(Solid& out, Arch const& arch, double half_width_m, double top_m);
 
+/// A closed frame round a level rectangle: the section's points run counter-clockwise where out of the rectangle is to the
+/// right and y is up; each says at what half sizes it goes round. `steps` quads along each side.
+void add_frame(Solid& out, math::dvec3 const& middle_m, std::span<Storey const> section, std::uint32_t steps);
+
 /// Where a part goes: x' = origin + x * right + y * up + z * back. The axes are as long as the part is scaled.
 struct Placement {
     math::dvec3 origin{0.0, 0.0, 0.0};
@@ -95,5 +100,11 @@ void add_placed_instance(Scene& scene, std::string name, std::uint32_t mesh, Pla
 /// Adds a solid to the mesh in primitives of at most `chunk_triangles`, with normals: faces that meet at an angle whose
 /// cosine is at least `crease_cos` are smooth across their edge. 2 keeps every face flat.
 void add_solid(Mesh& mesh, Solid const& solid, std::uint32_t material, double crease_cos = 0.75);
+
+/// A mesh of one solid.
+std::uint32_t add_solid_mesh(Scene& scene, std::string name, Solid const& solid, std::uint32_t material);
+
+/// An object of one solid that stands where its points say.
+void add_solid_object(Scene& scene, std::string const& name, Solid const& solid, std::uint32_t material);
 
 }  // namespace gnomon::scene::detail

@@ -21,6 +21,7 @@ struct ProceduralConfig {
     std::uint32_t seed = 0;       ///< 0: the scene's fixed seed.
     std::string lights{};         ///< A light set's name, or how many lights. Empty: the scene's first set.
     double moving_percent = 0.0;  ///< `town`: this share of the props moves.
+    bool trees = false;           ///< `atrium`: with twelve bare trees of 8,000 triangles in its court.
 };
 
 /// Lights that are chosen together.
@@ -44,6 +45,7 @@ struct ProceduralInfo {
     bool takes_triangles = false;
     bool takes_blocks = false;
     bool takes_offset = false;
+    bool takes_trees = false;
     double max_moving_percent = 0.0;           ///< 0: the scene does not take it.
     std::span<PathInfo const> paths{};         ///< The first is the one to show.
     std::span<LightSetInfo const> light_sets{};  ///< The first is the default. Empty: the lights are fixed.
