@@ -26,12 +26,13 @@ BuildingKind draw_kind(Pcg32& random, double from_middle_m) {
     return draw < flats + terraces ? BuildingKind::terrace : BuildingKind::cottage;
 }
 
-/// Stands a building on the ground: its floor at the highest point below it.
-void add_building(Scene& scene, TownGround const& ground, Mesh mesh, BuildingKind kind, dvec2 const& at, double turns) {
+/// Stands a building on the ground: its floor at the highest point below it. `plot` is x, z and the building's turns.
+void add_building(Scene& scene, TownGround const& ground, Mesh mesh, BuildingKind kind, dvec3 const& plot) {
+    dvec2 const at(plot.x, plot.y);
     dvec2 const half = half_plan(kind);
     double const floor = ground.heights(at - half, at + half)[1] + 0.12;
     std::uint32_t const id = add_mesh(scene, "building", std::move(mesh));
-    scene.instances.push_back(placed_instance("building", id, {{at.x, floor, at.y}, turns}));
+    scene.instances.push_back(placed_instance("building", id, {{at.x, floor, at.y}, plot.z}));
 }
 
 /// Which of all plots stay gardens, so that exactly the right number is built on: drawn without repetition.
@@ -67,10 +68,11 @@ void add_buildings(Scene& scene, TownGround const& ground, Pcg32& random) {
         BuildingKind const kind = draw_kind(random, std::sqrt(at.x * at.x + at.y * at.y));
         double const shift = kind == BuildingKind::cottage ? random.uniform(-2.5, 0.5) : random.uniform(-0.8, 0.8);
         double const way = plots[i].z == 0.0 ? 1.0 : -1.0;
-        add_building(scene, ground, make_building(kind, paints, random), kind, {at.x + shift * way, at.y}, plots[i].z);
+        add_building(scene, ground, make_building(kind, paints, random), kind, {at.x + shift * way, at.y, plots[i].z});
     }
     dvec2 const church = town_corner(3, 5) + dvec2(52.0, 27.0);
-    add_building(scene, ground, make_building(BuildingKind::church, paints, random), BuildingKind::church, church, 0.0);
+    add_building(scene, ground, make_building(BuildingKind::church, paints, random), BuildingKind::church,
+                 {church.x, church.y, 0.0});
 }
 
 std::uint64_t seed_for(ProceduralConfig const& config) noexcept { return seed_of(config, town_seed); }
