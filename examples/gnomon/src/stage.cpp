@@ -97,11 +97,9 @@ Outcome<Stage> set_stage(SceneOptions const& options, MotionOptions const& motio
     if (!loaded) return std::move(loaded).failure();
     auto clip = choose_clip(loaded->scene, motion);
     if (!clip) return std::move(clip).failure();
-    if (*clip == scene::none && motion.time_s != 0.0)
-        return usage_error(fmt::format("--time {}: nothing moves in {}; leave it out", motion.time_s, loaded->text));
     Stage stage;
     stage.loaded = *std::move(loaded);
-    stage.clip.time_s = motion.time_s;
+    stage.clip.time_s = *clip == scene::none ? 0.0 : motion.time_s;  // What does not move is the same at any time.
     stage.clip.clip = *clip;
     scene::pose_at(stage.loaded.scene, stage.clip, stage.pose);
     stage.geometry = scene::flatten(stage.loaded.scene, stage.pose);
