@@ -162,14 +162,16 @@ math::vec3 ambient_at(ShadeConfig const& config, math::vec3 const& normal, math:
 
 /// The exposure that shows the light's key as white paper, moved by up to a stop and a half toward an even picture.
 float picked_exposure(Frame const& frame, Shading const& shading, float key) {
-    if (frame.lit.empty()) return 1.0F / key;
+    std::size_t const n = frame.samples.size();
+    if (n == 0) return 1.0F / key;
     double sum = 0.0;
-    for (std::size_t i = 0; i < frame.lit.size(); ++i) {
-        math::vec3 const arriving = shading.ambient[i] + shading.direct[i] * static_cast<float>(frame.lit[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+        float const lit = has_truth(frame) ? static_cast<float>(frame.lit[i]) : 0.5F;  // Nobody knows: half of it.
+        math::vec3 const arriving = shading.ambient[i] + shading.direct[i] * lit;
         sum += std::fmin(static_cast<double>(luminance(arriving) / key), 4.0);
     }
     constexpr float middle = 0.22F;
-    float const mean = static_cast<float>(sum / static_cast<double>(frame.lit.size()));
+    float const mean = static_cast<float>(sum / static_cast<double>(n));
     return std::clamp(middle / std::fmax(mean, 1e-6F), 0.7F, 2.2F) / key;
 }
 
