@@ -1,5 +1,5 @@
 #include <gnomon/check/check.hpp>
-#include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster/conservative.hpp>
 
 #include "oracle.hpp"
@@ -300,7 +300,7 @@ TEST_CASE("a conservative pass counts bad data, draws instances, and is the same
     std::vector<float> other = one;
     TileWorkspace workspace;
     core::SerialExecutor serial;
-    core::TbbExecutor pool(2);
+    core::ThreadExecutor pool(2);
     ConservativeConfig const config{.scissor = Rect{10, 20, 200, 150}};
     auto const stats = conservative_pass({&draw, 1}, make_image(one.data(), 300, 200), config, workspace, serial);
     CHECK(stats == conservative_pass({&draw, 1}, make_image(other.data(), 300, 200), config, workspace, pool));

@@ -1,5 +1,5 @@
 #include <gnomon/check/check.hpp>
-#include <gnomon/core/executor_tbb.hpp>
+#include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster/ortho.hpp>
 #include <gnomon/raster/triangle.hpp>
 
@@ -309,7 +309,7 @@ TEST_CASE("the orthographic pass counts what it leaves out, and any executor dra
     std::vector<float> other = one;
     TileWorkspace workspace;
     core::SerialExecutor serial;
-    core::TbbExecutor pool(2);
+    core::ThreadExecutor pool(2);
     OrthoConfig const config{.scissor = Rect{5, 7, 250, 180}};
     auto const stats = ortho_pass(draws, plain_light(), make_image(one.data(), 300, 200), config, workspace, serial);
     CHECK(stats == ortho_pass(draws, plain_light(), make_image(other.data(), 300, 200), config, workspace, pool));
