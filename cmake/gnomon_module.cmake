@@ -7,6 +7,8 @@
 #     [PACKAGES_OPTIONAL embree ...]   linked to the tests where found, which then see GNOMON_HAS_EMBREE=1
 #     [TEST_DEPENDS scene ...]         further modules of the tests and benchmarks; `check` is always there
 #     [TEST_PACKAGES tbb ...]          further packages of the tests and benchmarks; they are left out without them
+#     [SHADERS shaders/x.comp ...]     become `shaders/x_comp.hpp` for src/ (cmake/gnomon_shaders.cmake)
+#     [TEST_SHADERS tests/x.comp ...]  the same for the tests
 #     [ADAPTERS gnomon/x/y.hpp[=need ...]]  headers that no other header includes, each with the package or module it needs
 #     [NO_UNITY])                      compile the tests and sources one by one
 #
@@ -25,6 +27,7 @@ set(GNOMON_FLOOR_4 pipeline)
 include(gnomon_checks)
 include(gnomon_fuzz)
 include(gnomon_install)
+include(gnomon_shaders)
 
 function(gnomon_floor name out)
   foreach(floor 0 1 2 3 4)
@@ -36,7 +39,8 @@ function(gnomon_floor name out)
   message(FATAL_ERROR "gnomon: module '${name}' stands on no floor; add it to cmake/gnomon_module.cmake")
 endfunction()
 
-set(GNOMON_MODULE_LISTS SOURCES DEPENDS PACKAGES PACKAGES_OPTIONAL TEST_DEPENDS TEST_PACKAGES ADAPTERS)
+set(GNOMON_MODULE_LISTS SOURCES DEPENDS PACKAGES PACKAGES_OPTIONAL TEST_DEPENDS TEST_PACKAGES ADAPTERS SHADERS
+    TEST_SHADERS)
 
 function(gnomon_module name)
   cmake_parse_arguments(m "NO_UNITY" "" "${GNOMON_MODULE_LISTS}" ${ARGN})
@@ -90,6 +94,9 @@ macro(_gnomon_library)
   foreach(dependency IN LISTS m_DEPENDS)
     target_link_libraries(${target} ${scope} gnomon::${dependency})
   endforeach()
+  if(m_SHADERS)
+    gnomon_shaders(${target} gnomon::${name} ${m_SHADERS})
+  endif()
   # What a compiled module uses inside stays inside; GLM is in the public types.
   foreach(package IN LISTS m_PACKAGES)
     if(m_SOURCES AND NOT package STREQUAL "glm")
@@ -151,6 +158,9 @@ macro(_gnomon_tests)
     endif()
     if(m_NO_UNITY)
       set_target_properties(${name}_tests PROPERTIES UNITY_BUILD OFF)
+    endif()
+    if(m_TEST_SHADERS)
+      gnomon_shaders(${name}_tests gnomon::${name}::test ${m_TEST_SHADERS})
     endif()
     add_test(NAME ${name} COMMAND ${name}_tests)
     set_tests_properties(${name} PROPERTIES TIMEOUT 300 LABELS "module;floor${floor}")

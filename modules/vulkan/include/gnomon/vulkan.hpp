@@ -1,0 +1,10 @@
+#pragma once
+// Adapters over the caller's own Vulkan 1.3 device: they record into the caller's command buffer, and never submit,
+// wait or own the device.
+
+#include <gnomon/vulkan/error.hpp>
+#include <gnomon/vulkan/features.hpp>
+#include <gnomon/vulkan/functions.hpp>
+#include <gnomon/vulkan/gpu.hpp>
+#include <gnomon/vulkan/resources.hpp>
+#include <gnomon/vulkan/shader.hpp>
