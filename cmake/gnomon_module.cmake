@@ -19,7 +19,7 @@
 # A module may use modules of its own floor and below. Floors 0-1 are header-only.
 set(GNOMON_FLOOR_0 check core math predicates)
 set(GNOMON_FLOOR_1 cluster bvh cull mask projection resolution cascade cache pages visibility batch mesh
-                   volumes certify ptsv trace voxel lights sample shadow)
+                   volumes certify ptsv trace voxel lights sample shadow backend)
 set(GNOMON_FLOOR_2 scene)
 set(GNOMON_FLOOR_3 raster vulkan)
 set(GNOMON_FLOOR_4 pipeline)

@@ -5,6 +5,7 @@
 // compared strictly, so equal depths go to the lower triangle id: the first one drawn. The image is the same for any
 // executor, kernel and compiler.
 
+#include <gnomon/backend/pass.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/math/view.hpp>
 #include <gnomon/raster/depth_pyramid.hpp>
@@ -19,17 +20,8 @@
 
 namespace gnomon::raster {
 
-/// What happens in front of the near plane and beyond the far plane.
-enum class DepthRange : std::uint8_t {
-    clip,   ///< Cut away there, as a camera does.
-    clamp,  ///< Kept, with depth 0 or 1 ("pancaking"): casters between the light and its near plane stay casters.
-};
-
-/// What a target's pixels hold when the pass begins.
-enum class Load : std::uint8_t {
-    clear,  ///< The farthest depth, and no triangle.
-    keep,   ///< What the target holds: draw on top. Depths must be in [0, 1].
-};
+using backend::DepthRange;
+using backend::Load;
 
 enum class Kernel : std::uint8_t {
     automatic,  ///< The fastest that this machine runs.

@@ -1,6 +1,7 @@
 #pragma once
 // Images that a pass writes: views of the caller's memory, row by row, row 0 on top.
 
+#include <gnomon/backend/pass.hpp>
 #include <gnomon/core/contract.hpp>
 
 #include <cstddef>
@@ -9,17 +10,9 @@
 namespace gnomon::raster {
 
 inline constexpr std::int32_t max_size_px = 16384;  ///< Largest width and height of a target or viewport.
-inline constexpr std::uint32_t no_triangle = ~0U;   ///< What a visibility target holds where nothing was drawn.
 
-/// Pixels [x, x + width) x [y, y + height); empty when a size is not above 0.
-struct Rect {
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    std::int32_t width = 0;
-    std::int32_t height = 0;
-
-    friend bool operator==(Rect const&, Rect const&) noexcept = default;
-};
+using backend::no_triangle;  ///< What a visibility target holds where nothing was drawn.
+using backend::Rect;
 
 /// A view of `height` rows of `width` elements, rows `stride` elements apart.
 template <class T>
