@@ -4,8 +4,8 @@
 set -eu
 . "$(dirname "$0")/steps.sh"
 
-demo_packages="ca-certificates cmake g++ ninja-build libglm-dev libtinygltf-dev libtbb-dev libcli11-dev libfmt-dev libstb-dev libwebp-dev nlohmann-json3-dev"
-test_packages="$demo_packages libvulkan-dev glslc mesa-vulkan-drivers vulkan-validationlayers libembree-dev libbenchmark-dev libopenmesh-dev"
+demo_packages="ca-certificates cmake g++ ninja-build libglm-dev libtinygltf-dev libtbb-dev libcli11-dev libfmt-dev libstb-dev libwebp-dev nlohmann-json3-dev libvulkan-dev glslc"
+test_packages="$demo_packages mesa-vulkan-drivers vulkan-validationlayers libembree-dev libbenchmark-dev libopenmesh-dev"
 ci_packages="$test_packages ccache catch2 clang-16 libclang-rt-16-dev"
 
 missing_packages() {

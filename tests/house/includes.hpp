@@ -115,6 +115,7 @@ private:
         std::string const other = module_of(include.header);
         if (other.empty()) {
             if (self.floor < 2 && is_upper_floor_package(include.header)) report(include, "belongs above floor 1");
+            if (include.header.starts_with("vulkan/") && name_ != "vulkan") report(include, "belongs into the module vulkan alone");
             return;
         }
         auto const found = modules_.find(other);

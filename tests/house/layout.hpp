@@ -9,7 +9,7 @@ namespace house {
 
 inline std::set<std::string> const top_level = {"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "README.md",
                                                 "cmake",          "examples",          "modules",      "tests"};
-inline std::set<std::string> const module_parts = {"CMakeLists.txt", "README.md", "include", "src", "tests", "bench", "fuzz", "pictures"};
+inline std::set<std::string> const module_parts = {"CMakeLists.txt", "README.md", "include", "src", "tests", "bench", "fuzz",  "pictures", "shaders"};
 
 /// What `names` (the top level's entries, without ignored ones) has beyond the house, but for dot files.
 inline void check_top_level(std::set<std::string> const& names, std::vector<Finding>& findings) {

@@ -2,6 +2,7 @@
 
 #include "verbs.hpp"
 
+#include "devices.hpp"
 #include "report.hpp"
 #include "table.hpp"
 #include "values.hpp"
@@ -48,7 +49,32 @@ std::string packages_text() {
                        format, json);
 }
 
+/// "vulkan (2 devices; `gnomon info --devices` lists them)", or why not.
+std::string vulkan_text() {
+    auto const devices = vulkan_devices();
+    if (!devices) return "no vulkan: " + devices.failure().message;
+    return fmt::format("vulkan ({} device{}; `gnomon info --devices` says which)", devices->size(),
+                       devices->size() == 1 ? "" : "s");
+}
+
+std::string device_text(std::size_t number, DeviceInfo const& device) {
+    std::string text = fmt::format("{}  {}\n   {}, Vulkan {}, {:.1f} GiB", number, device.name, device.kind, device.api,
+                                   static_cast<double>(device.memory_bytes) / 1073741824.0);
+    if (!device.driver.empty()) text += ", driver " + device.driver;
+    if (!device.cannot.empty()) return text + "\n   cannot be used: " + device.cannot + '\n';
+    return text + "\n   " + (device.lacks.empty() ? "has every optional feature" : "does without: " + join(device.lacks)) +
+           '\n';
+}
+
 }  // namespace
+
+Outcome<core::Done> show_devices() {
+    auto const devices = vulkan_devices();
+    if (!devices) return devices.failure();
+    std::string text;
+    for (std::size_t i = 0; i < devices->size(); ++i) text += device_text(i + 1, (*devices)[i]);
+    return print(text + "`--device` takes a number or a part of a name.\n");
+}
 
 Outcome<core::Done> show_info() {
     Machine const machine = this_machine();
@@ -60,9 +86,9 @@ Outcome<core::Done> show_info() {
         "system     {}\n"
         "compiler   {}, {}\n"
         "packages   {}\n"
-        "backends   cpu\n\n{}",
+        "backends   cpu, {}\n\n{}",
         GNOMON_VERSION, machine.cpu, machine.logical_cores, machine.simd, machine.system, machine.compiler,
-        machine.build, packages_text(), techniques_text());
+        machine.build, packages_text(), vulkan_text(), techniques_text());
     return print(text);
 }
 

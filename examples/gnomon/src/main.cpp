@@ -37,7 +37,9 @@ struct Dispatch {
         return flies ? fly(options) : run(options);
     }
     Outcome<gnomon::core::Done> operator()(ScenesOptions const& options) const { return list_or_write_scenes(options); }
-    Outcome<gnomon::core::Done> operator()(InfoOptions const&) const { return show_info(); }
+    Outcome<gnomon::core::Done> operator()(InfoOptions const& options) const {
+        return options.devices ? show_devices() : show_info();
+    }
 };
 
 int fail(Exit code, std::string const& sentence) {

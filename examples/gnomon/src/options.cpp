@@ -164,9 +164,20 @@ Outcome<ParamOption> read_param(std::string const& text) {
     return param;
 }
 
-Outcome<core::Done> check_backend(std::optional<std::string> const& backend) {
-    if (!backend || *backend == "cpu") return core::Done{};
-    return usage_error(fmt::format("--backend {}: this build has cpu; give --backend cpu or leave it out", *backend));
+Outcome<core::Done> take_backends(RawOptions const& raw, RunOptions& run) {
+    std::vector<std::string> const known = {"cpu", "vulkan"};
+    run.backends = raw.backends.empty() ? std::vector<std::string>{"cpu"} : raw.backends;
+    run.device = raw.device;
+    for (auto at = run.backends.begin(); at != run.backends.end(); ++at) {
+        if (std::find(known.begin(), known.end(), *at) == known.end())
+            return usage_error(fmt::format("--backend {}: no such backend; {}", *at, suggestion(*at, known)));
+        if (std::find(run.backends.begin(), at, *at) != at)
+            return usage_error(fmt::format("--backend {}: given twice; name each backend once", *at));
+    }
+    bool const on_vulkan = std::find(run.backends.begin(), run.backends.end(), "vulkan") != run.backends.end();
+    if (raw.device && !on_vulkan)
+        return usage_error(fmt::format("--device {}: it goes with --backend vulkan; add it", *raw.device));
+    return core::Done{};
 }
 
 /// How often, on how many threads, and where to.
@@ -187,7 +198,7 @@ Outcome<core::Done> take_running(RawOptions const& raw, RunOptions& run) {
             "--no-truth: compare measures errors, which need the truth; leave it out, or use gnomon render");
     for (auto const& [name, path] : {std::pair{"--json", &raw.json}, {"--out", &raw.out}})
         if (*path && (*path)->empty()) return usage_error(fmt::format("{} '': give a name that is not empty", name));
-    return check_backend(raw.backend);
+    return take_backends(raw, run);
 }
 
 /// Which techniques with which parameters.
@@ -257,7 +268,7 @@ Outcome<Command> parse_command_line(int argc, char const* const* argv) {
         case RawVerb::compare: return run_command_of(raw->options, Verb::compare);
         case RawVerb::flythrough: return run_command_of(raw->options, Verb::flythrough);
         case RawVerb::scenes: return scenes_options(raw->options);
-        case RawVerb::info: return Command{InfoOptions{}};
+        case RawVerb::info: return Command{InfoOptions{raw->options.devices}};
     }
     return usage_error("gnomon needs a verb; `gnomon --help` lists them");
 }

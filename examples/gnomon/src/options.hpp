@@ -67,6 +67,8 @@ struct RunOptions {
     ViewOptions view;
     MotionOptions motion;
     LightOptions light;
+    std::vector<std::string> backends;  ///< Each technique runs on each; at least one, no two alike.
+    std::optional<std::string> device;  ///< Of the backend vulkan.
     std::vector<std::string> techniques;
     std::vector<ParamOption> params;
     int threads = 1;
@@ -82,7 +84,9 @@ struct ScenesOptions {
     std::optional<std::string> write;
 };
 
-struct InfoOptions {};
+struct InfoOptions {
+    bool devices = false;  ///< The Vulkan devices instead of everything else.
+};
 
 /// Text that was asked for: help or the version.
 struct HelpText {

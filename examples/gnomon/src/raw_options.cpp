@@ -73,7 +73,12 @@ void add_run(CLI::App& app, RawOptions& raw) {
                          char const* group) { app.add_option(name, value, text)->type_name(type)->group(group); };
     app.add_flag("--no-truth", raw.no_truth, "pictures and times only: trace no exact shadows, so know no errors")
         ->group(runs);
-    add("--backend", raw.backend, "cpu", "NAME", "Runs");
+    app.add_option("--backend,--backends", raw.backends, "what draws: cpu or vulkan, or both, a run of each; cpu")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B")
+        ->group(runs);
+    add("--device", raw.device, "vulkan: a part of the device's name or its number; `gnomon info --devices`", "NAME", "Runs");
     add("--threads", raw.threads, "left out: as many as the machine has", "N", "Runs");
     add("--repeats", raw.repeats, "timed runs of each; the median counts; 1 (compare: 3)", "N", "Runs");
     add("--out", raw.out, "folder to write; left out: gnomon- and the verb", "DIR", "Output");
@@ -136,6 +141,7 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     }
     add_scene(*scenes, raw.options, false);
     scenes->add_option("--write", raw.options.write, "write the scene as glTF 2.0")->type_name("FILE.glb");
+    info->add_flag("--devices", raw.options.devices, "list the Vulkan devices of this machine");
     std::string const first = argc > 1 ? argv[1] : "";
     if (argc > 1 && !first.starts_with("-") && std::find(verbs.begin(), verbs.end(), first) == verbs.end())
         return unknown_verb(first);

@@ -17,7 +17,9 @@ struct RawOptions {
     bool no_truth = false, trees = false;
     std::optional<std::string> sun, point, light;
     std::vector<std::string> techniques, params;
-    std::optional<std::string> size, backend, threads, repeats, json, out, write;
+    std::optional<std::string> size, device, threads, repeats, json, out, write;
+    std::vector<std::string> backends;
+    bool devices = false;
 };
 
 enum class RawVerb {

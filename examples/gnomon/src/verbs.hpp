@@ -11,6 +11,8 @@ namespace gnomon::command {
 [[nodiscard]] Outcome<core::Done> fly(RunOptions const& options);
 [[nodiscard]] Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options);
 [[nodiscard]] Outcome<core::Done> show_info();
+/// `info --devices`.
+[[nodiscard]] Outcome<core::Done> show_devices();
 
 /// Prints to standard output; a full disk or a closed pipe is a failure, not silence.
 [[nodiscard]] Outcome<core::Done> print(std::string const& text);

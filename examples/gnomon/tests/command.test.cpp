@@ -148,6 +148,9 @@ TEST_CASE("info names techniques and their parameters", "[command]") {
     Ended const info = gnomon_in(folder.path(), {"info"});
     CHECK(info.exit_code == 0);
     for (char const* part : {"shadow-map.resolution", "ray", "backends", "cpu", "fmt"}) CHECK(has(info.out, part));
+    Ended const devices = gnomon_in(folder.path(), {"info", "--devices"});
+    bool const listed = devices.exit_code == 0 && has(devices.out, "Vulkan 1.");
+    CHECK((listed || (devices.exit_code == 1 && has(devices.err, "there is no Vulkan here"))));
     CHECK(gnomon_in(folder.path(), {"--version"}).out == "gnomon " GNOMON_VERSION "\n");
     CHECK(gnomon_in(folder.path(), {"compare", "--help"}).exit_code == 0);
 }

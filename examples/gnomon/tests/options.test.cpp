@@ -106,7 +106,10 @@ TEST_CASE("every bad value is named, with what to do", "[options]") {
     CHECK(has(refused({"render", "city", "--near", "2", "--far", "1"}), "near must be less"));
     CHECK(has(refused({"render", "city", "--near", "0"}), "--near 0"));
     CHECK(has(refused({"render", "city", "--far", "inf"}), "--far inf"));
-    CHECK(has(refused({"render", "city", "--backend", "vulkan"}), "vulkan"));
+    CHECK(has(refused({"render", "city", "--backend", "vulkam"}), "vulkan"));
+    CHECK(run_of({"render", "city"}).backends == std::vector<std::string>{"cpu"});
+    CHECK(run_of({"render", "city", "--backend", "vulkan,cpu"}).backends == std::vector<std::string>{"vulkan", "cpu"});
+    CHECK(run_of({"render", "city", "--backend", "vulkan", "--device", "2"}).device == "2");
     CHECK(has(refused({"render", "city", "--param", "resolution=5"}), "technique.name=value"));
     CHECK(has(refused({"render", "city", "--param", "a.b=1,"}), "missing"));
     CHECK(has(refused({"render", "city", "--out", ""}), "--out"));
