@@ -82,7 +82,8 @@ TEST_CASE("what does not fit its resource is refused with its value", "[backend]
     CHECK(refuses(rig.device.draw(rig.list, rig.target, {&view, 1}), Error::too_large, "20000"));
     CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(20'000, 1)}), Error::too_large, "20000"));
     CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(0, 1)}), Error::bad_argument, "0 x 1"));
-    CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(16'384, 16'384), .layers = 6}), Error::too_large, "MiB"));
+    CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(16'384, 16'384), .layers = 6}), Error::too_large,
+                  "MiB"));
     CHECK(refuses(rig.device.make_buffer(0), Error::bad_argument, "0 bytes"));
 }
 

@@ -63,9 +63,9 @@ namespace detail {
                               detail::text(target.size_px) + " pixels in " + std::to_string(target.layers) +
                                   " layers is no image: each must be at least 1");
     if (target.size_px.x > limits.target_px || target.size_px.y > limits.target_px)
-        return detail::refuse(Error::too_large, "make_target",
-                              detail::text(target.size_px) + " pixels; a side may have " +
-                                  std::to_string(limits.target_px));
+        return detail::refuse(
+            Error::too_large, "make_target",
+            detail::text(target.size_px) + " pixels; a side may have " + std::to_string(limits.target_px));
     if (target.layers > limits.target_layers)
         return detail::refuse(
             Error::too_large, "make_target",
@@ -104,16 +104,16 @@ namespace detail {
 [[nodiscard]] inline Result<Done> check_layer(std::string_view verb, PassLayer const& layer, TargetConfig const& target,
                                               Limits const& limits) {
     if (layer.layer >= target.layers)
-        return detail::refuse(Error::bad_argument, verb,
-                              "layer " + std::to_string(layer.layer) + " of a target of " +
-                                  std::to_string(target.layers));
+        return detail::refuse(
+            Error::bad_argument, verb,
+            "layer " + std::to_string(layer.layer) + " of a target of " + std::to_string(target.layers));
     if (!layer.viewport) return Done{};
     Rect const& v = *layer.viewport;
     if (v.width > limits.target_px || v.height > limits.target_px || v.x > limits.target_px || v.y > limits.target_px ||
         v.x < -limits.target_px || v.y < -limits.target_px)
-        return detail::refuse(Error::too_large, verb,
-                              "viewport " + detail::text(v) + "; sizes and offsets may be " +
-                                  std::to_string(limits.target_px));
+        return detail::refuse(
+            Error::too_large, verb,
+            "viewport " + detail::text(v) + "; sizes and offsets may be " + std::to_string(limits.target_px));
     return Done{};
 }
 
@@ -131,15 +131,15 @@ namespace detail {
             if (detail::common(area, other).width > 0)
                 return detail::refuse(Error::bad_argument, "draw",
                                       "the areas " + detail::text(other) + " and " + detail::text(area) + " of layer " +
-                                          std::to_string(layers[i].layer) +
-                                          " overlap: draw them one after the other");
+                                          std::to_string(layers[i].layer) + " overlap: draw them one after the other");
         }
     }
     return Done{};
 }
 
 /// A part of a target, for `copy` and `read`.
-[[nodiscard]] inline Result<Done> check_part(std::string_view verb, TargetPart const& part, TargetConfig const& target) {
+[[nodiscard]] inline Result<Done> check_part(std::string_view verb, TargetPart const& part,
+                                             TargetConfig const& target) {
     if (part.layer >= target.layers)
         return detail::refuse(
             Error::bad_argument, verb,
@@ -150,12 +150,13 @@ namespace detail {
     bool const inside = r.x >= 0 && r.y >= 0 && r.width >= 0 && r.height >= 0 && r.x <= target.size_px.x - r.width &&
                         r.y <= target.size_px.y - r.height;
     if (inside) return Done{};
-    return detail::refuse(Error::bad_argument, verb,
-                          "the rectangle " + detail::text(r) + " is not within the target's " +
-                              detail::text(target.size_px) + " pixels");
+    return detail::refuse(
+        Error::bad_argument, verb,
+        "the rectangle " + detail::text(r) + " is not within the target's " + detail::text(target.size_px) + " pixels");
 }
 
-[[nodiscard]] inline Result<Done> check_read(TargetPart const& part, TargetConfig const& target, std::size_t out_bytes) {
+[[nodiscard]] inline Result<Done> check_read(TargetPart const& part, TargetConfig const& target,
+                                             std::size_t out_bytes) {
     if (auto ok = check_part("read", part, target); !ok) return ok;
     std::size_t const needed = static_cast<std::size_t>(part.rect.width) * static_cast<std::size_t>(part.rect.height) *
                                bytes_per_pixel(target, part.plane);
@@ -166,8 +167,8 @@ namespace detail {
 }
 
 /// `from_config` and `to_config` of the targets `part.target` and `to`.
-[[nodiscard]] inline Result<Done> check_copy(TargetPart const& part, TargetConfig const& from_config, TargetPart const& to,
-                                             TargetConfig const& to_config) {
+[[nodiscard]] inline Result<Done> check_copy(TargetPart const& part, TargetConfig const& from_config,
+                                             TargetPart const& to, TargetConfig const& to_config) {
     if (auto ok = check_part("copy", part, from_config); !ok) return ok;
     if (auto ok = check_part("copy", to, to_config); !ok) return ok;
     if (from_config.depth != to_config.depth && part.plane == Plane::depth)

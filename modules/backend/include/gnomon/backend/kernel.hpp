@@ -56,14 +56,14 @@ struct KernelData {
 
     /// The whole elements of buffer `i`; the first is aligned to 64 bytes.
     template <class T>
-        requires std::is_trivially_copyable_v<T>
+    requires std::is_trivially_copyable_v<T>
     [[nodiscard]] std::span<T> buffer(std::size_t i) const noexcept {
         GNOMON_EXPECT(i < buffers.size());
         return {reinterpret_cast<T*>(buffers[i].data()), buffers[i].size() / sizeof(T)};
     }
     /// A copy of the constants.
     template <class T>
-        requires std::is_trivially_copyable_v<T>
+    requires std::is_trivially_copyable_v<T>
     [[nodiscard]] T constant() const noexcept {
         GNOMON_EXPECT(sizeof(T) == constants.size());
         T value;
@@ -103,7 +103,7 @@ struct KernelCall {
 ///
 /// expects: the value outlives the call.
 template <class T>
-    requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 [[nodiscard]] std::span<std::byte const> bytes_of(T const& value) noexcept {
     return std::as_bytes(std::span<T const, 1>(&value, 1));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The backend that does nothing: every verb, every check, no pixel. It shows that the verbs hide neither a rasterizer nor
-// a GPU, and times what a technique costs beside them.
+// The backend that does nothing: every verb, every check, no pixel. It shows that the verbs hide neither a rasterizer
+// nor a GPU, and times what a technique costs beside them.
 
 #include <gnomon/backend/check.hpp>
 #include <gnomon/backend/slots.hpp>

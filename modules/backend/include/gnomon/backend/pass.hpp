@@ -65,8 +65,8 @@ struct PassLayer {
     math::mat4 clip_from_relative{1.0F};       ///< In place of `Draw::clip_from_relative`.
     std::uint64_t groups = ~std::uint64_t{0};  ///< Takes the draws that share a bit with it: `Draw::groups`.
     std::uint32_t layer = 0;                   ///< Of the target's array.
-    std::optional<Rect> viewport{};            ///< Where clip space [-1, 1] lands; may stick out. Default: the whole layer.
-    std::optional<Rect> scissor{};             ///< Cuts the viewport: the strip that a cache redraws. Default: all of it.
+    std::optional<Rect> viewport{};  ///< Where clip space [-1, 1] lands; may stick out. Default: the whole layer.
+    std::optional<Rect> scissor{};   ///< Cuts the viewport: the strip that a cache redraws. Default: all of it.
     math::Depth depth = math::Depth::reversed;
     DepthRange range = DepthRange::clip;
     Load load = Load::clear;
