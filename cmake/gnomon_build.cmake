@@ -24,6 +24,9 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND GNOMON_OWN_FLAGS -Wno-restrict) # false for "text" + std::string: GCC bug 105651
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND GNOMON_OWN_FLAGS -Wno-psabi) # a note on wide lanes as arguments; none crosses to objects of another target
+endif()
 
 if(CMAKE_CXX_FLAGS MATCHES "GLM_FORCE_SIZE_T_LENGTH")
   list(APPEND GNOMON_OWN_FLAGS -Wno-sign-conversion)

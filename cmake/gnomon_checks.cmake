@@ -3,6 +3,8 @@
 #   - all of them twice in one program                                NAME_two_units, run as test `NAME.two-units`
 #   - floors 0-1: without exceptions and RTTI, and under each GLM configuration macro that changes types or conventions
 #   - floors 0-1: Clang's front end, where the compiler is GCC and Clang 16 or later is installed
+#   - a formula file is C++ and GLSL, alone: glslc reads it too, where it is installed, and its SPIR-V is kept in
+#     BUILD/formulas for the test `house.formulas`
 # Adapters are checked where what they need is installed.
 
 set(GNOMON_GLM_MATRIX
@@ -31,7 +33,7 @@ endfunction()
 
 # _gnomon_split_headers(): headers and adapters of the module; an adapter whose needs are missing is in neither.
 macro(_gnomon_split_headers)
-  file(GLOB_RECURSE headers RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/include" CONFIGURE_DEPENDS include/*.hpp)
+  file(GLOB_RECURSE headers RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/include" CONFIGURE_DEPENDS include/*.hpp include/*.glsl)
   set(adapters "")
   set(adapter_modules "")
   set(adapter_packages "")
@@ -61,6 +63,7 @@ endmacro()
 
 macro(_gnomon_header_checks)
   _gnomon_split_headers()
+  _gnomon_formula_checks()
   if(headers OR adapters)
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/header_checks")
     set(units "")
@@ -85,6 +88,65 @@ macro(_gnomon_header_checks)
     if(GNOMON_CLANG AND floor LESS 2)
       _gnomon_clang_check()
     endif()
+  endif()
+endmacro()
+
+# _gnomon_formula_shader(FILE FORMULA): writes a shader that includes nothing but the formula file, says what a texel
+# is (see math/README.md) and calls each of its functions, which glslc would leave out otherwise.
+function(_gnomon_formula_shader file formula)
+  set(source "${CMAKE_CURRENT_SOURCE_DIR}/include/${formula}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
+  file(READ "${source}" text)
+  string(REPLACE "[" "(" text "${text}") # no list takes brackets apart
+  string(REPLACE "]" ")" text "${text}")
+  string(REGEX MATCHALL "\nGN_[A-Z_]*FN [^{;]*{" heads "${text}")
+  set(calls "")
+  foreach(head IN LISTS heads)
+    string(REGEX MATCH " (gn_[a-z0-9_]+)\\((.*)\\) {" _ "${head}")
+    set(function "${CMAKE_MATCH_1}")
+    string(REPLACE "," ";" parameters "${CMAKE_MATCH_2}")
+    set(names "")
+    foreach(parameter IN LISTS parameters)
+      string(STRIP "${parameter}" parameter)
+      string(REGEX MATCH "[a-z0-9_]+$" parameter_name "${parameter}")
+      list(APPEND names "${parameter_name}")
+    endforeach()
+    string(JOIN " SEMICOLON " declared ${parameters})
+    string(JOIN ", " names ${names})
+    string(APPEND calls "    { ${declared} SEMICOLON ${function}(${names}) SEMICOLON }\n")
+  endforeach()
+  string(REPLACE " SEMICOLON" ";" calls "${calls}")
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT "#version 450
+#extension GL_GOOGLE_include_directive : require
+#define GN_TEXELS int
+#define GN_TEXEL(texels, x, y) float((texels) + (x) + (y))
+#include <${formula}>
+void main() {
+${calls}}
+")
+endfunction()
+
+macro(_gnomon_formula_checks)
+  set(formulas ${headers})
+  list(FILTER formulas INCLUDE REGEX "\\.glsl$")
+  gnomon_find(glslc)
+  if(formulas AND NOT GNOMON_glslc_FOUND)
+    message(STATUS "gnomon: the formulas of ${name} are not compiled as GLSL, for want of glslc")
+  elseif(formulas)
+    file(GLOB formula_includes "${PROJECT_SOURCE_DIR}/modules/*/include")
+    list(TRANSFORM formula_includes PREPEND "-I")
+    set(formula_spirv "")
+    foreach(formula IN LISTS formulas)
+      string(MAKE_C_IDENTIFIER "${formula}" id)
+      set(base "${PROJECT_BINARY_DIR}/formulas/${id}")
+      _gnomon_formula_shader("${base}.comp" "${formula}")
+      add_custom_command(OUTPUT "${base}.spv"
+        COMMAND "${GNOMON_glslc_PROGRAM}" --target-env=vulkan1.3 -O0 -Werror ${formula_includes} -MD -MF "${base}.spv.d"
+          -o "${base}.spv" "${base}.comp"
+        DEPENDS "${base}.comp" DEPFILE "${base}.spv.d" COMMENT "${formula} as GLSL" VERBATIM)
+      list(APPEND formula_spirv "${base}.spv")
+    endforeach()
+    add_custom_target(${name}_formulas ALL DEPENDS ${formula_spirv})
   endif()
 endmacro()
 
@@ -117,7 +179,7 @@ macro(_gnomon_two_units)
 endmacro()
 
 macro(_gnomon_clang_check)
-  file(GLOB_RECURSE all_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp")
+  file(GLOB_RECURSE all_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp" "${PROJECT_SOURCE_DIR}/modules/*.glsl")
   set(includes "$<TARGET_PROPERTY:${name}_two_units,INCLUDE_DIRECTORIES>")
   set(include_flags "$<$<BOOL:${includes}>:-I$<JOIN:${includes},;-I>>")
   set(syntax "${GNOMON_CLANG}" -std=c++20 -fsyntax-only ${GNOMON_WARNINGS} ${GNOMON_FLOAT_FLAGS} -Werror)

@@ -8,7 +8,7 @@ function(_gnomon_install_module name)
   endif()
   set_target_properties(gnomon_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS gnomon_${name} EXPORT gnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl")
 endfunction()
 
 # gnomon_install_package(): the config file, written for exactly the packages that installed modules link.

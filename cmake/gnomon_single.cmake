@@ -16,7 +16,7 @@ function(_gnomon_single_header name adapters)
     endif()
     file(CONFIGURE OUTPUT "${GNOMON_FORWARD_DIR}/${header}" CONTENT "${text}" @ONLY)
   endforeach()
-  file(GLOB_RECURSE all CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp")
+  file(GLOB_RECURSE all CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp" "${PROJECT_SOURCE_DIR}/modules/*.glsl")
   set(out "${GNOMON_SINGLE_DIR}/gnomon_${name}.hpp")
   add_custom_command(OUTPUT "${out}"
     COMMAND ${CMAKE_COMMAND} -DNAME=${name} "-DROOT=${PROJECT_SOURCE_DIR}" -DVERSION=${PROJECT_VERSION} "-DOUT=${out}"

@@ -1,9 +1,13 @@
+#include "formulas.hpp"
 #include "includes.hpp"
 #include "layout.hpp"
 #include "sizes.hpp"
 #include "tables.hpp"
 
 #include <gnomon/check/check.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace {
 
@@ -143,6 +147,35 @@ TEST_CASE("the layout check knows the top level and the parts of a module", "[ho
     tree.erase("modules/m/README.md");
     house::check_module_parts(tree, findings);
     CHECK(findings.size() == 2);
+}
+
+TEST_CASE("a formula file has a guard for two languages", "[house]") {
+    auto const findings = [](std::string const& text) {
+        std::vector<Finding> found;
+        house::check_formula_start("modules/m/include/gnomon/m/formula/x.glsl", text, found);
+        return found.size();
+    };
+    CHECK(findings("// A thing.\n\n#ifndef GNOMON_M_FORMULA_X_GLSL\n#define GNOMON_M_FORMULA_X_GLSL\n#endif\n") == 0);
+    CHECK(findings("// A thing.\n\n#ifndef X\n#define X\n#endif\n") == 1);
+    CHECK(findings("#pragma once\n") == 3);
+}
+
+TEST_CASE("arithmetic that a driver may fuse is found in SPIR-V", "[house]") {
+    // %4 = OpFMul %1 %2 %3, with and without OpDecorate %4 NoContraction; %5 = OpExtInst %1 %9 Fma.
+    std::vector<std::uint32_t> words = {0x07230203, 0x10000, 0, 6, 0, (5U << 16U) | 133, 1, 4, 2, 3};
+    auto const findings = [&] {
+        std::string const bytes(reinterpret_cast<char const*>(words.data()), words.size() * 4);
+        return house::check_formulas({{"x.spv", bytes}}).size();
+    };
+    CHECK(findings() == 1);
+    words.insert(words.begin() + 5, {(3U << 16U) | 71, 4, 42});
+    CHECK(findings() == 0);
+    words.insert(words.end(), {(8U << 16U) | 12, 1, 5, 9, 50, 2, 3, 4});
+    CHECK(findings() == 1);
+    words.push_back(7U << 16U);  // an instruction beyond the end
+    CHECK(findings() == 2);
+    CHECK(house::check_formulas({{"y.spv", "no SPIR-V"}}).size() == 1);
+    CHECK(house::check_formulas({}).size() == 1);
 }
 
 TEST_CASE("an example begins with what it shows and includes umbrellas only", "[house]") {

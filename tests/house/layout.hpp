@@ -3,6 +3,7 @@
 
 #include "house.hpp"
 
+#include <cctype>
 #include <set>
 
 namespace house {
@@ -39,6 +40,16 @@ inline void check_header_start(std::string const& path, std::string const& text,
         findings.push_back({path, 2, "does not say what it is, in a comment behind #pragma once"});
 }
 
+/// A formula file is read by two compilers: a guard that both know, a comment first, nothing left open.
+inline void check_formula_start(std::string const& path, std::string const& text, std::vector<Finding>& findings) {
+    if (!text.starts_with("// ")) findings.push_back({path, 1, "does not say what it is, in a comment on its first line"});
+    std::string guard = path.substr(path.find("/include/") + 9);
+    for (char& c : guard) c = is_word(c) ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : '_';
+    if (text.find("\n#ifndef " + guard + "\n#define " + guard + "\n") == std::string::npos)
+        findings.push_back({path, 0, "has not the include guard " + guard});
+    if (text.find("#pragma once") != std::string::npos) findings.push_back({path, 0, "has a #pragma once, which GLSL has not"});
+}
+
 inline bool is_umbrella(std::string const& header) {
     return header.starts_with("gnomon/") && std::count(header.begin(), header.end(), '/') == 1;
 }
@@ -64,6 +75,7 @@ inline std::vector<Finding> check_layout(Tree const& tree, std::set<std::string>
     for (auto const& [path, text] : tree) {
         auto const steps = split(path, '/');
         if (path.ends_with(".hpp") && steps[0] == "modules") check_header_start(path, text, findings);
+        if (path.ends_with(".glsl") && steps[0] == "modules") check_formula_start(path, text, findings);
         if (path.ends_with(".cpp") && steps[0] == "examples" && steps.size() == 2) check_example(path, text, findings);
     }
     return findings;

@@ -1,6 +1,7 @@
-// house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT
+// house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT | formulas SPIRV_FOLDER
 // Prints what breaks a rule of the house, one line each; exit code 1 if there is any.
 
+#include "formulas.hpp"
 #include "includes.hpp"
 #include "layout.hpp"
 #include "sizes.hpp"
@@ -39,12 +40,18 @@ int report(std::vector<house::Finding> const& findings) {
 int main(int argc, char** argv) {
     std::vector<std::string> const args(argv + 1, argv + argc);
     if (args.size() == 3 && args[0] == "includes")
-        return report(house::check_includes(house::parse_modules(house::read_file(args[1])), read_tree(args[2], {".hpp", ".cpp"})));
+        return report(house::check_includes(house::parse_modules(house::read_file(args[1])), read_tree(args[2], {".hpp", ".cpp", ".glsl"})));
     if (args.size() == 3 && args[0] == "sizes")
-        return report(house::check_sizes(read_tree(args[2], {".hpp", ".cpp"}), house::read_file(args[1])));
-    if (args.size() == 2 && args[0] == "tables") return report(house::check_tables(read_tree(args[1], {".hpp", ".cpp", ".md"})));
+        return report(house::check_sizes(read_tree(args[2], {".hpp", ".cpp", ".glsl"}), house::read_file(args[1])));
+    if (args.size() == 2 && args[0] == "tables") return report(house::check_tables(read_tree(args[1], {".hpp", ".cpp", ".glsl", ".md"})));
     if (args.size() == 2 && args[0] == "layout")
-        return report(house::check_layout(read_tree(args[1], {".hpp", ".cpp", ".md", ".txt"}), top_level_names(args[1])));
-    std::cerr << "usage: house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT\n";
+        return report(house::check_layout(read_tree(args[1], {".hpp", ".cpp", ".glsl", ".md", ".txt"}), top_level_names(args[1])));
+    if (args.size() == 2 && args[0] == "formulas") {
+        house::Tree spirv;
+        house::read_into(spirv, args[1], "", {".spv"});
+        return report(house::check_formulas(spirv));
+    }
+    std::cerr << "usage: house_lint includes MODULES_TXT ROOT | sizes EXCEPTIONS_TXT ROOT | tables ROOT | layout ROOT | "
+                 "formulas SPIRV_FOLDER\n";
     return 2;
 }

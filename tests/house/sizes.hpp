@@ -147,7 +147,7 @@ public:
 
     void file(std::string const& path, std::string const& text) {
         std::size_t const lines = line_of(text, text.size()) - (text.ends_with("\n") ? 1 : 0);
-        if (path.ends_with(".hpp") && lines > limits_.header_lines)
+        if (!path.ends_with(".cpp") && lines > limits_.header_lines)
             report({path, 0, "has " + std::to_string(lines) + " lines"}, path, "header-lines");
         for (auto const& function : functions_of(text)) {
             if (is_test(function.name)) continue;
@@ -185,7 +185,7 @@ inline std::vector<Finding> check_sizes(Tree const& tree, std::string const& exc
     auto exceptions = parse_exceptions(exceptions_text, findings);
     SizeCheck check(limits, exceptions, findings);
     for (auto const& [path, text] : tree)
-        if (path.ends_with(".hpp") || path.ends_with(".cpp")) check.file(path, text);
+        if (path.ends_with(".hpp") || path.ends_with(".cpp") || path.ends_with(".glsl")) check.file(path, text);
     for (auto const& exception : exceptions)
         if (!exception.used)
             findings.push_back({"cmake/lint_exceptions.txt", 0, exception.where + " " + exception.rule + " is no longer needed"});

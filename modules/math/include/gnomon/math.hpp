@@ -2,6 +2,7 @@
 // All of math, but for the test generators.
 
 #include <gnomon/math/bounds.hpp>
+#include <gnomon/math/formula.hpp>
 #include <gnomon/math/frustum.hpp>
 #include <gnomon/math/interval.hpp>
 #include <gnomon/math/lanes.hpp>

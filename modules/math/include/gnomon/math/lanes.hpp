@@ -125,8 +125,45 @@ GNOMON_LANES_COMPARE(!=)
 
 template <Lane T, std::size_t N>
 [[nodiscard]] inline Lanes<T, N> operator-(Lanes<T, N> const& a) noexcept {
+#if GNOMON_VECTOR_EXTENSION
+    return {-a.v};
+#else
     Lanes<T, N> r;
     for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(-a.v[i]);
+    return r;
+#endif
+}
+
+/// Each lane shifted up; expects: 0 <= places < the lane's width.
+template <std::integral T, std::size_t N>
+[[nodiscard]] inline Lanes<T, N> operator<<(Lanes<T, N> const& a, int places) noexcept {
+#if GNOMON_VECTOR_EXTENSION
+    return {a.v << places};
+#else
+    Lanes<T, N> r;
+    for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(a.v[i] << places);
+    return r;
+#endif
+}
+
+/// Each lane shifted down, with its sign where it has one; expects: 0 <= places < the lane's width.
+template <std::integral T, std::size_t N>
+[[nodiscard]] inline Lanes<T, N> operator>>(Lanes<T, N> const& a, int places) noexcept {
+#if GNOMON_VECTOR_EXTENSION
+    return {a.v >> places};
+#else
+    Lanes<T, N> r;
+    for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(a.v[i] >> places);
+    return r;
+#endif
+}
+
+/// The same bits, read as another type of the same size.
+template <Lane To, Lane From, std::size_t N>
+    requires(sizeof(To) == sizeof(From))
+[[nodiscard]] inline Lanes<To, N> bits_as(Lanes<From, N> const& a) noexcept {
+    Lanes<To, N> r;
+    std::memcpy(&r.v, &a.v, sizeof(r.v));
     return r;
 }
 
