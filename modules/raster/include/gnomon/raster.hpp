@@ -4,6 +4,7 @@
 #include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/box_test.hpp>
 #include <gnomon/raster/conservative.hpp>
+#include <gnomon/raster/cpu_backend.hpp>
 #include <gnomon/raster/depth_pyramid.hpp>
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/instances.hpp>

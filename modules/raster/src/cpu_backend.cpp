@@ -1,0 +1,321 @@
+#include <gnomon/raster/cpu_backend.hpp>
+
+#include <gnomon/backend/check.hpp>
+#include <gnomon/backend/slots.hpp>
+#include <gnomon/raster/alpha_map.hpp>
+#include <gnomon/raster/layers.hpp>
+#include <gnomon/raster/sample_query.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::raster {
+
+using backend::BufferId;
+using backend::Done;
+using backend::DrawListId;
+using backend::Error;
+using backend::PassLayer;
+using backend::Plane;
+using backend::Result;
+using backend::StageTime;
+using backend::TargetConfig;
+using backend::TargetId;
+using backend::TargetPart;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Zeroed bytes, or none where there is no room: a size that a user asked for is no reason to end the program.
+class Bytes {
+  public:
+    Bytes() = default;
+    explicit Bytes(std::size_t size)
+        : data_(static_cast<std::byte*>(::operator new (size, std::align_val_t{64}, std::nothrow))), size_(size) {
+        if (data_ != nullptr) std::memset(data_, 0, size);
+    }
+    Bytes(Bytes&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    Bytes& operator=(Bytes&& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
+    ~Bytes() { ::operator delete (data_, std::align_val_t{64}); }
+
+    [[nodiscard]] bool is_missing() const noexcept { return data_ == nullptr; }
+    [[nodiscard]] std::byte* data() const noexcept { return data_; }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  private:
+    std::byte* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+struct List {
+    std::vector<AlphaTest> tests;                 // Pointed to by `draws`.
+    std::vector<std::unique_ptr<AlphaMap>> maps;  // Pointed to by `tests`; one for each that differs.
+    std::vector<Draw> draws;
+};
+
+struct Target {
+    TargetConfig config;
+    Bytes depth;
+    Bytes triangle;
+
+    [[nodiscard]] std::size_t pixels() const noexcept {
+        return static_cast<std::size_t>(config.size_px.x) * static_cast<std::size_t>(config.size_px.y);
+    }
+    template <class T>
+    [[nodiscard]] ImageView<T> image(Bytes const& bytes, std::uint32_t layer) const noexcept {
+        return make_image(reinterpret_cast<T*>(bytes.data()) + layer * pixels(), config.size_px.x, config.size_px.y);
+    }
+    [[nodiscard]] Layer layer(PassLayer const& pass) const noexcept {
+        Layer layer{.target = config.depth == backend::DepthFormat::unorm16
+                                  ? DepthTarget(image<std::uint16_t>(depth, pass.layer))
+                                  : DepthTarget(image<float>(depth, pass.layer)),
+                    .origin = pass.origin,
+                    .clip_from_relative = pass.clip_from_relative,
+                    .groups = pass.groups};
+        if (config.triangle_ids) layer.triangle = image<std::uint32_t>(triangle, pass.layer);
+        layer.config.depth = pass.depth;
+        layer.config.range = pass.range;
+        layer.config.load = pass.load;
+        layer.config.viewport = pass.viewport;
+        layer.config.scissor = backend::area_of(pass, config.size_px);
+        return layer;
+    }
+    [[nodiscard]] backend::TexelView view(Plane plane) const noexcept {
+        return {(plane == Plane::depth ? depth : triangle).data(), config.size_px, config.layers, config.depth, plane};
+    }
+    /// The first byte of a row of a part, `y` rows from its top.
+    [[nodiscard]] std::byte* row(TargetPart const& part, std::int32_t y) const noexcept {
+        std::size_t const at = part.layer * pixels() +
+                               static_cast<std::size_t>(part.rect.y + y) * static_cast<std::size_t>(config.size_px.x) +
+                               static_cast<std::size_t>(part.rect.x);
+        return (part.plane == Plane::depth ? depth : triangle).data() + at * bytes_per_pixel(config, part.plane);
+    }
+    [[nodiscard]] std::size_t row_bytes(TargetPart const& part) const noexcept {
+        return static_cast<std::size_t>(part.rect.width) * bytes_per_pixel(config, part.plane);
+    }
+};
+
+/// Many draws share few textures: a map is made where none serves yet.
+AlphaMap const* map_of(List& list, AlphaTest const& test) {
+    for (auto const& map : list.maps)
+        if (map->is_of(test)) return map.get();
+    list.maps.push_back(std::make_unique<AlphaMap>(make_alpha_map(test)));
+    return list.maps.back().get();
+}
+
+template <class Id>
+Result<Id> made(Id id, std::string_view verb) {
+    if (!id.is_none()) return id;
+    return core::Failure{Error::out_of_memory, std::string(verb) + ": a million things live: release some"};
+}
+
+core::Failure<Error> no_room(std::string_view verb, std::uint64_t bytes) {
+    return {Error::out_of_memory,
+            std::string(verb) + ": no room for " + std::to_string(bytes) + " bytes: release something or ask for less"};
+}
+
+Result<Done> released(bool was_there, std::string_view what, std::uint32_t id) {
+    if (!was_there) return backend::unknown_id("release", what, id);
+    return Done{};
+}
+
+}  // namespace
+
+struct CpuBackend::State {
+    explicit State(core::ExecutorRef e) : executor(e) {}
+
+    core::ExecutorRef executor;
+    backend::Slots<DrawListId, List> lists;
+    backend::Slots<TargetId, Target> targets;
+    backend::Slots<BufferId, Bytes> buffers;
+    Workspace passes;
+    QueryWorkspace queries;
+    std::vector<Layer> layers;
+    std::vector<std::uint64_t> counts;
+    std::vector<StageTime> stages;
+    std::vector<StageTime> finished;
+    Clock::time_point begun;
+
+    /// Ends the stage that is running, if one is.
+    void lap() {
+        Clock::time_point const now = Clock::now();
+        if (!stages.empty()) stages.back().ms = std::chrono::duration<double, std::milli>(now - begun).count();
+        begun = now;
+    }
+};
+
+CpuBackend::CpuBackend(core::ExecutorRef executor) : state_(std::make_unique<State>(executor)) {}
+CpuBackend::~CpuBackend() = default;
+
+void CpuBackend::use(core::ExecutorRef executor) noexcept { state_->executor = executor; }
+std::size_t CpuBackend::live() const noexcept {
+    return state_->lists.size() + state_->targets.size() + state_->buffers.size();
+}
+std::string_view CpuBackend::name() const noexcept { return "cpu"; }
+backend::Limits CpuBackend::limits() const noexcept { return {.target_px = max_size_px}; }
+
+Result<DrawListId> CpuBackend::keep(std::span<Draw const> draws) {
+    List list;
+    list.draws.assign(draws.begin(), draws.end());
+    list.tests.reserve(draws.size());
+    for (Draw& draw : list.draws) {
+        if (draw.alpha_test == nullptr) continue;
+        list.tests.push_back(*draw.alpha_test);
+        AlphaTest& test = list.tests.back();
+        if (test.map == nullptr && math::is_complete(test.texture)) test.map = map_of(list, test);
+        draw.alpha_test = &test;
+    }
+    return made(state_->lists.insert(std::move(list)), "keep");
+}
+
+Result<TargetId> CpuBackend::make_target(TargetConfig const& config) {
+    if (auto ok = backend::check(config, limits()); !ok) return std::move(ok).failure();
+    Target target{config, {}, {}};
+    std::size_t const pixels = target.pixels() * config.layers;
+    target.depth = Bytes(pixels * bytes_per_pixel(config, Plane::depth));
+    if (config.triangle_ids) target.triangle = Bytes(pixels * bytes_per_pixel(config, Plane::triangle));
+    if (target.depth.is_missing() || (config.triangle_ids && target.triangle.is_missing()))
+        return no_room("make_target", pixels * (config.triangle_ids ? 8U : bytes_per_pixel(config, Plane::depth)));
+    return made(state_->targets.insert(std::move(target)), "make_target");
+}
+
+Result<BufferId> CpuBackend::make_buffer(std::size_t bytes) {
+    if (auto ok = backend::check_buffer(bytes, limits()); !ok) return std::move(ok).failure();
+    Bytes memory(bytes);
+    if (memory.is_missing()) return no_room("make_buffer", bytes);
+    return made(state_->buffers.insert(std::move(memory)), "make_buffer");
+}
+
+Result<Done> CpuBackend::release(DrawListId list) {
+    return released(state_->lists.erase(list), "draw list", list.value);
+}
+Result<Done> CpuBackend::release(TargetId target) {
+    return released(state_->targets.erase(target), "target", target.value);
+}
+Result<Done> CpuBackend::release(BufferId buffer) {
+    return released(state_->buffers.erase(buffer), "buffer", buffer.value);
+}
+
+void CpuBackend::stage(std::string_view name) {
+    state_->lap();
+    state_->stages.push_back({name, 0.0});
+}
+
+Result<Done> CpuBackend::write(BufferId buffer, std::size_t offset, std::span<std::byte const> bytes) {
+    Bytes const* const to = state_->buffers.find(buffer);
+    if (to == nullptr) return backend::unknown_id("write", "buffer", buffer.value);
+    if (auto ok = backend::check_range("write", to->size(), offset, bytes.size()); !ok) return ok;
+    if (!bytes.empty()) std::memcpy(to->data() + offset, bytes.data(), bytes.size());
+    return Done{};
+}
+
+Result<backend::PassCounts> CpuBackend::draw(DrawListId list, TargetId target, std::span<PassLayer const> layers) {
+    List const* const kept = state_->lists.find(list);
+    if (kept == nullptr) return backend::unknown_id("draw", "draw list", list.value);
+    Target const* const to = state_->targets.find(target);
+    if (to == nullptr) return backend::unknown_id("draw", "target", target.value);
+    if (auto ok = backend::check_layers(layers, to->config, limits()); !ok) return std::move(ok).failure();
+    backend::PassCounts counts;
+    state_->layers.clear();
+    for (PassLayer const& layer : layers) {
+        state_->layers.push_back(to->layer(layer));
+        for (Draw const& draw : kept->draws) {
+            if ((draw.groups & layer.groups) == 0) continue;
+            counts.triangles += std::uint64_t{triangle_count(draw)} * draw.instances.size();
+            ++counts.draw_calls;
+        }
+    }
+    layered_pass(kept->draws, state_->layers, state_->passes, state_->executor);
+    return counts;
+}
+
+Result<Done> CpuBackend::count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
+                                       BufferId counts, std::size_t first) {
+    Target const* const in = state_->targets.find(target);
+    if (in == nullptr) return backend::unknown_id("count_samples", "target", target.value);
+    Bytes const* const out = state_->buffers.find(counts);
+    if (out == nullptr) return backend::unknown_id("count_samples", "buffer", counts.value);
+    if (auto ok = backend::check_layer("count_samples", view, in->config, limits()); !ok) return ok;
+    if (auto ok = backend::check_range("count_samples", out->size() / 4, first, boxes.size()); !ok) return ok;
+    state_->counts.resize(boxes.size());
+    count_samples_passing(boxes, in->layer(view), state_->counts, state_->queries, state_->executor);
+    auto* const to = reinterpret_cast<std::uint32_t*>(out->data()) + first;
+    for (std::size_t i = 0; i < boxes.size(); ++i) to[i] = static_cast<std::uint32_t>(state_->counts[i]);
+    return Done{};
+}
+
+Result<Done> CpuBackend::run(backend::Kernel const& kernel, backend::KernelCall const& call) {
+    if (auto ok = backend::check(kernel, call); !ok) return ok;
+    if (kernel.cpu == nullptr)
+        return core::Failure{Error::missing_feature, "run: kernel '" + std::string(kernel.name) + "' has no C++ half"};
+    std::array<std::span<std::byte>, backend::max_kernel_buffers> buffers;
+    for (std::size_t i = 0; i < call.buffers.size(); ++i) {
+        Bytes const* const bytes = state_->buffers.find(call.buffers[i]);
+        if (bytes == nullptr) return backend::unknown_id("run", "buffer", call.buffers[i].value);
+        buffers[i] = {bytes->data(), bytes->size()};
+    }
+    std::array<backend::TexelView, backend::max_kernel_targets> targets;
+    for (std::size_t i = 0; i < call.targets.size(); ++i) {
+        backend::TargetBinding const& binding = call.targets[i];
+        Target const* const target = state_->targets.find(binding.target);
+        if (target == nullptr) return backend::unknown_id("run", "target", binding.target.value);
+        if (auto ok = backend::check_part("run", {binding.target, 0, binding.plane, {}}, target->config); !ok)
+            return ok;
+        targets[i] = target->view(binding.plane);
+    }
+    backend::KernelData const data{std::span(buffers).first(call.buffers.size()),
+                                   std::span(targets).first(call.targets.size()), call.constants};
+    state_->executor.parallel_for(call.count, kernel.grain,
+                                  [&](std::size_t begin, std::size_t end) { kernel.cpu(data, begin, end); });
+    return Done{};
+}
+
+Result<Done> CpuBackend::copy(TargetPart const& from, TargetId to, std::uint32_t layer, math::ivec2 const& at) {
+    Target const* const source = state_->targets.find(from.target);
+    if (source == nullptr) return backend::unknown_id("copy", "target", from.target.value);
+    Target const* const goal = state_->targets.find(to);
+    if (goal == nullptr) return backend::unknown_id("copy", "target", to.value);
+    TargetPart const part{to, layer, from.plane, {at.x, at.y, from.rect.width, from.rect.height}};
+    if (auto ok = backend::check_copy(from, source->config, part, goal->config); !ok) return ok;
+    for (std::int32_t y = 0; y < part.rect.height; ++y)
+        std::memcpy(goal->row(part, y), source->row(from, y), source->row_bytes(from));
+    return Done{};
+}
+
+Result<Done> CpuBackend::read(BufferId buffer, std::size_t offset, std::span<std::byte> out) {
+    Bytes const* const from = state_->buffers.find(buffer);
+    if (from == nullptr) return backend::unknown_id("read", "buffer", buffer.value);
+    if (auto ok = backend::check_range("read", from->size(), offset, out.size()); !ok) return ok;
+    if (!out.empty()) std::memcpy(out.data(), from->data() + offset, out.size());
+    return Done{};
+}
+
+Result<Done> CpuBackend::read(TargetPart const& part, std::span<std::byte> out) {
+    Target const* const from = state_->targets.find(part.target);
+    if (from == nullptr) return backend::unknown_id("read", "target", part.target.value);
+    if (auto ok = backend::check_read(part, from->config, out.size()); !ok) return ok;
+    std::size_t const bytes = from->row_bytes(part);
+    if (bytes == 0) return Done{};
+    for (std::int32_t y = 0; y < part.rect.height; ++y)
+        std::memcpy(out.data() + static_cast<std::size_t>(y) * bytes, from->row(part, y), bytes);
+    return Done{};
+}
+
+Result<std::span<StageTime const>> CpuBackend::finish() {
+    state_->lap();
+    state_->finished.swap(state_->stages);
+    state_->stages.clear();
+    return std::span<StageTime const>(state_->finished);
+}
+
+}  // namespace gnomon::raster
