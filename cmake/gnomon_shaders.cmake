@@ -5,6 +5,7 @@
 # gives TARGET the private header "shaders/blur_comp.hpp" with `inline constexpr std::span<std::uint32_t const>
 # NAMESPACE::blur_comp`. Shaders include the formula files of every module: #include <gnomon/shadow/formula/x.glsl>.
 # Not optimized: spirv-opt turns a * b + c into Fma, one rounding for two, and drivers optimize anyway.
+# SPIR-V 1.5: glslc's 1.6 says the group size as an id, for which a device needs maintenance4.
 # Without glslc the span is empty, and a device that asks for it is told so.
 
 function(gnomon_shaders target namespace)
@@ -21,7 +22,7 @@ function(gnomon_shaders target namespace)
     if(GNOMON_glslc_FOUND)
       set(spirv "${folder}/${name}.inc")
       add_custom_command(OUTPUT "${spirv}"
-        COMMAND "${GNOMON_glslc_PROGRAM}" --target-env=vulkan1.3 -O0 -Werror -mfmt=num ${includes} -MD -MF "${spirv}.d"
+        COMMAND "${GNOMON_glslc_PROGRAM}" --target-env=vulkan1.3 --target-spv=spv1.5 -O0 -Werror -mfmt=num ${includes} -MD -MF "${spirv}.d"
           -o "${spirv}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}"
         DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${file}" DEPFILE "${spirv}.d" COMMENT "SPIR-V of ${file}" VERBATIM)
       list(APPEND headers "${spirv}")

@@ -2,9 +2,18 @@
 // Adapters over the caller's own Vulkan 1.3 device: they record into the caller's command buffer, and never submit,
 // wait or own the device.
 
+#include <gnomon/vulkan/barrier.hpp>
+#include <gnomon/vulkan/descriptors.hpp>
 #include <gnomon/vulkan/error.hpp>
 #include <gnomon/vulkan/features.hpp>
+#include <gnomon/vulkan/frame.hpp>
 #include <gnomon/vulkan/functions.hpp>
 #include <gnomon/vulkan/gpu.hpp>
+#include <gnomon/vulkan/kernel.hpp>
+#include <gnomon/vulkan/read_back.hpp>
 #include <gnomon/vulkan/resources.hpp>
+#include <gnomon/vulkan/ring.hpp>
 #include <gnomon/vulkan/shader.hpp>
+#include <gnomon/vulkan/spirv.hpp>
+#include <gnomon/vulkan/staging.hpp>
+#include <gnomon/vulkan/timestamps.hpp>
