@@ -76,14 +76,14 @@ VkDeviceSize Staging::held_bytes() const noexcept {
     return sum;
 }
 
-Result<core::Done> upload(Gpu const& gpu, VkCommandBuffer commands, Staging& staging, std::span<std::byte const> bytes,
-                          VkBuffer buffer, VkDeviceSize offset) {
+Result<core::Done> Staging::upload(VkCommandBuffer commands, std::span<std::byte const> bytes, VkBuffer buffer,
+                                   VkDeviceSize offset) {
     if (bytes.empty()) return core::Done{};
-    auto const slice = staging.take(bytes.size());
+    auto const slice = take(bytes.size());
     if (!slice) return slice.failure();
     std::memcpy(slice->bytes.data(), bytes.data(), bytes.size());
     VkBufferCopy const region{slice->offset, offset, bytes.size()};
-    gpu.call.CmdCopyBuffer(commands, slice->buffer, buffer, 1, &region);
+    gpu_->call.CmdCopyBuffer(commands, slice->buffer, buffer, 1, &region);
     return core::Done{};
 }
 

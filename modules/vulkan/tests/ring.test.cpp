@@ -83,7 +83,7 @@ TEST_CASE("staging grows once, uploads arrive whole, and idle memory goes back",
             auto const bytes = std::as_bytes(std::span(values));
             for (std::size_t at = 0; at < 12000;) {  // pieces of 1 to 4999 bytes
                 std::size_t const piece = std::min<std::size_t>(12000 - at, at % 7 == 0 ? 4999 : 1 + at * 31 % 900);
-                REQUIRE(vulkan::upload(*gpu, commands, staging, bytes.subspan(at, piece), goal.handle.get(), at));
+                REQUIRE(staging.upload(commands, bytes.subspan(at, piece), goal.handle.get(), at));
                 at += piece;
             }
             REQUIRE(staging.flush());

@@ -1,3 +1,5 @@
+#ifndef GNOMON_BACKEND_ITEM_GLSL
+#define GNOMON_BACKEND_ITEM_GLSL
 // The item of an invocation of a kernel, for its GLSL half:
 //
 //     #version 450
@@ -12,3 +14,5 @@
 // is all that Vulkan promises. A kernel that reads this macro is run on a grid beyond that; others are refused there.
 
 #define GNOMON_ITEM (gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x))
+
+#endif

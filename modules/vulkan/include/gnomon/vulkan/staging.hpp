@@ -30,6 +30,9 @@ class Staging {
     /// expects: `alignment` a power of two, at most 256.
     /// returns: `out_of_device_memory` and its kin when a block cannot be had; what was taken stays.
     [[nodiscard]] Result<HostSlice> take(VkDeviceSize bytes, VkDeviceSize alignment = 16);
+    /// Copies bytes into staging and records the copy from there to `buffer`. Barriers are the caller's.
+    [[nodiscard]] Result<core::Done> upload(VkCommandBuffer commands, std::span<std::byte const> bytes, VkBuffer buffer,
+                                            VkDeviceSize offset);
     /// Makes what the host wrote visible to the device: call before submitting. Upload only.
     [[nodiscard]] Result<core::Done> flush();
 
@@ -50,9 +53,5 @@ class Staging {
     std::vector<Block> blocks_;
     FrameCount count_;
 };
-
-/// Copies bytes into staging and records the copy from there to `buffer`. Barriers are the caller's.
-[[nodiscard]] Result<core::Done> upload(Gpu const& gpu, VkCommandBuffer commands, Staging& staging,
-                                        std::span<std::byte const> bytes, VkBuffer buffer, VkDeviceSize offset);
 
 }  // namespace gnomon::vulkan
