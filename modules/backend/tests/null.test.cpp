@@ -130,6 +130,7 @@ TEST_CASE("a part of a target is copied between layers and read whole", "[backen
 TEST_CASE("stages come back once, in order", "[backend][null]") {
     Rig rig;
     rig.device.stage("one");
+    rig.device.stage("");
     rig.device.stage("two");
     auto const times = rig.device.finish();
     REQUIRE(times->size() == 2);

@@ -145,11 +145,12 @@ struct CpuBackend::State {
     std::vector<StageTime> stages;
     std::vector<StageTime> finished;
     Clock::time_point begun;
+    bool timing = false;  // The last of `stages` goes on.
 
-    /// Ends the stage that is running, if one is.
-    void lap() {
+    void end_stage() {
         Clock::time_point const now = Clock::now();
-        if (!stages.empty()) stages.back().ms = std::chrono::duration<double, std::milli>(now - begun).count();
+        if (timing) stages.back().ms = std::chrono::duration<double, std::milli>(now - begun).count();
+        timing = false;
         begun = now;
     }
 };
@@ -207,8 +208,10 @@ Result<Done> CpuBackend::release(BufferId buffer) {
 }
 
 void CpuBackend::stage(std::string_view name) {
-    state_->lap();
+    state_->end_stage();
+    if (name.empty()) return;
     state_->stages.push_back({name, 0.0});
+    state_->timing = true;
 }
 
 Result<Done> CpuBackend::write(BufferId buffer, std::size_t offset, std::span<std::byte const> bytes) {
@@ -312,7 +315,7 @@ Result<Done> CpuBackend::read(TargetPart const& part, std::span<std::byte> out) 
 }
 
 Result<std::span<StageTime const>> CpuBackend::finish() {
-    state_->lap();
+    state_->end_stage();
     state_->finished.swap(state_->stages);
     state_->stages.clear();
     return std::span<StageTime const>(state_->finished);

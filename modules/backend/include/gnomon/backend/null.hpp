@@ -47,7 +47,9 @@ class NullBackend final : public Backend {
     Result<Done> release(TargetId target) override { return released(targets_.erase(target), "target", target.value); }
     Result<Done> release(BufferId buffer) override { return released(buffers_.erase(buffer), "buffer", buffer.value); }
 
-    void stage(std::string_view name) override { stages_.push_back({name, 0.0}); }
+    void stage(std::string_view name) override {
+        if (!name.empty()) stages_.push_back({name, 0.0});
+    }
 
     Result<Done> write(BufferId buffer, std::size_t offset, std::span<std::byte const> bytes) override {
         std::size_t const* const size = buffers_.find(buffer);

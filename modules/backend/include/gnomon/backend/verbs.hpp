@@ -67,8 +67,9 @@ class Backend {
     virtual Result<Done> release(TargetId target) = 0;
     virtual Result<Done> release(BufferId buffer) = 0;
 
-    /// What follows is timed under this name, up to the next one or `finish`. What comes before any is not timed.
+    /// What follows is timed under this name, up to the next one or `finish`.
     ///
+    /// What comes before any, and what follows an empty name, is not timed.
     /// expects: a name that outlives the next `finish`, such as a literal.
     virtual void stage(std::string_view name) = 0;
     /// Fills `bytes.size()` bytes of `buffer`, from `offset` on.
@@ -100,7 +101,7 @@ class Backend {
 
     /// Returns when all that was recorded is done and read back.
     ///
-    /// returns: the stages in order, until the next call of this.
+    /// returns: the stages that have names, in order, until the next call of this.
     virtual Result<std::span<StageTime const>> finish() = 0;
 
   protected:
