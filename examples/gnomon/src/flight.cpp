@@ -209,7 +209,7 @@ class Flight {
 }  // namespace
 
 Outcome<core::Done> fly(RunOptions const& options) {
-    auto plan = plan_runs(options.techniques, options.params);
+    auto plan = plan_runs(options);
     if (!plan) return std::move(plan).failure();
     if (auto outputs = check_outputs(options); !outputs) return outputs;
     auto folder = FolderWriter::begin(out_folder(options));

@@ -14,7 +14,7 @@ namespace {
 std::string plot_section(Report const& report) {
     std::vector<PlotPoint> points;
     for (Run const& run : report.runs)
-        points.push_back({run.label, run.result.technique, run.result.ms.median, run.result.error.wrong_fraction});
+        points.push_back({run.label, run.result.technique + " on " + run.result.backend, run.result.ms.median, run.result.error.wrong_fraction});
     return "<h2>Speed against error</h2>\n<p>Down is more exact, left is faster. Points of one technique are "
            "joined.</p>\n" +
            plot_svg(points, ray_ms(report));
@@ -38,7 +38,7 @@ std::string page_html(Report const& report, ReportPictures const& pictures) {
         "the "
         "time of exact rays divided by the run's, measured in the same command on the same samples: the ray run's "
         "time, or that of "
-        "tracing the truth where there is no ray run.</p>\n";
+        "tracing the truth where there is no ray run. With several backends each is compared with its own.</p>\n";
     html += plot_section(report);
     html += "<h2>Pictures</h2>\n";
     html += legend;

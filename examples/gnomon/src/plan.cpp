@@ -42,21 +42,38 @@ std::vector<Settings> combinations(std::string const& technique, std::vector<Par
     return all;
 }
 
-bool same_values(PlannedRun const& a, PlannedRun const& b) {
+bool same_run(PlannedRun const& a, PlannedRun const& b) {
     auto const equal = [](pipeline::Params::Value const& x, pipeline::Params::Value const& y) {
         return x.text == y.text;
     };
-    return a.technique == b.technique && std::equal(a.params.values.begin(), a.params.values.end(),
+    return a.technique == b.technique && a.backend == b.backend && std::equal(a.params.values.begin(), a.params.values.end(),
                                                     b.params.values.begin(), b.params.values.end(), equal);
 }
 
 Outcome<PlannedRun> plan_run(pipeline::Technique const& technique, Settings const& settings) {
     auto params = pipeline::make_params(technique, settings);
     if (!params) return usage_error("--param: " + params.failure().message);
-    PlannedRun run{&technique, *std::move(params), std::string(technique.name), {}};
+    PlannedRun run{&technique, *std::move(params), {}, std::string(technique.name), {}};
     for (pipeline::Setting const& setting : settings) run.label += fmt::format(" {}={}", setting.name, setting.text);
-    run.slug = slug_from(run.label);
     return run;
+}
+
+/// Adds the run once for each backend.
+Outcome<core::Done> add_on_each(std::vector<std::string> const& backends, PlannedRun const& run,
+                                std::vector<PlannedRun>& runs) {
+    for (std::string const& backend : backends) {
+        PlannedRun placed = run;
+        placed.backend = backend;
+        if (backends.size() > 1) placed.label += " on " + backend;
+        placed.slug = slug_from(placed.label);
+        for (PlannedRun const& other : runs)
+            if (same_run(other, placed))
+                return usage_error(fmt::format("{}: this run is asked for twice; leave one out", placed.label));
+        runs.push_back(std::move(placed));
+    }
+    if (runs.size() > most_runs)
+        return usage_error(fmt::format("--param: the lists make more than {} runs; shorten them", most_runs));
+    return core::Done{};
 }
 
 Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std::vector<ParamOption> const& params) {
@@ -80,21 +97,15 @@ Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std:
 
 }  // namespace
 
-Outcome<std::vector<PlannedRun>> plan_runs(std::vector<std::string> const& techniques,
-                                           std::vector<ParamOption> const& params) {
-    if (auto names = check_names(techniques, params); !names) return std::move(names).failure();
+Outcome<std::vector<PlannedRun>> plan_runs(RunOptions const& options) {
+    if (auto names = check_names(options.techniques, options.params); !names) return std::move(names).failure();
     std::vector<PlannedRun> runs;
-    for (std::string const& name : techniques) {
+    for (std::string const& name : options.techniques) {
         auto technique = pipeline::find_technique(name);
-        for (Settings const& settings : combinations(name, params)) {
+        for (Settings const& settings : combinations(name, options.params)) {
             auto run = plan_run(**technique, settings);
             if (!run) return std::move(run).failure();
-            for (PlannedRun const& other : runs)
-                if (same_values(other, *run))
-                    return usage_error(fmt::format("{}: this run is asked for twice; leave one out", run->label));
-            runs.push_back(*std::move(run));
-            if (runs.size() > most_runs)
-                return usage_error(fmt::format("--param: the lists make more than {} runs; shorten them", most_runs));
+            if (auto added = add_on_each(options.backends, *run, runs); !added) return std::move(added).failure();
         }
     }
     return runs;

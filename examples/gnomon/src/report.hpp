@@ -73,10 +73,12 @@ struct Report {
 /// expects: all frames are of one run, `first` being the report of any of them; `frames` is not empty.
 [[nodiscard]] pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::RunReport const& first);
 
-/// Milliseconds of exact rays, the peer that every time is shown beside: the `ray` run's, or else the truth's own.
+/// Milliseconds of exact rays, the peer that every time is shown beside: the first `ray` run's, or else the truth's
+/// own.
 [[nodiscard]] std::optional<double> ray_ms(Report const& report);
 
-/// How many times as fast as exact rays in the same command; nothing where either took no time.
+/// How many times as fast as exact rays in the same command, on the same backend where they ran there; nothing where
+/// either took no time.
 [[nodiscard]] std::optional<double> speed_over_ray(Report const& report, Run const& run);
 
 }  // namespace gnomon::command

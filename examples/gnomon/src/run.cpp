@@ -109,7 +109,7 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
 }  // namespace
 
 Outcome<core::Done> run(RunOptions const& options) {
-    auto plan = plan_runs(options.techniques, options.params);
+    auto plan = plan_runs(options);
     if (!plan) return std::move(plan).failure();
     if (auto outputs = check_outputs(options); !outputs) return outputs;
     core::TbbExecutor executor(options.threads);
