@@ -79,10 +79,11 @@ int solid_at(uint triangle, GnMeeting meeting) {
     return solid_in_texture(material, textures[material.w], triangle, meeting);
 }
 
+/// In the frame's order of axes.
 vec3 block_corner(GnRay ray, uint block, uint corner, uint lane) {
     uint row = block * 10u + corner * 3u;
-    return gn_in_frame(ray, uintBitsToFloat(uvec3(blocks[row + uint(ray.axis_x)][lane], blocks[row + uint(ray.axis_y)][lane],
-                                                  blocks[row + uint(ray.axis_z)][lane])));
+    return uintBitsToFloat(uvec3(blocks[row + uint(ray.axis_x)][lane], blocks[row + uint(ray.axis_y)][lane],
+                                 blocks[row + uint(ray.axis_z)][lane]));
 }
 
 int meet_lane(GnRay ray, uint block, uint lane, uint own) {
@@ -141,8 +142,8 @@ int turned_away(uint triangle, vec3 eye, vec3 light) {
     vec3 q = position_at(at.y);
     vec3 r = position_at(at.z);
     if (!gn_in_range(p) || !gn_in_range(q) || !gn_in_range(r)) return 2;
-    int sides = gn_plane_side(p, q, r, eye, c.eye_at_infinity == 0u) * gn_plane_side(p, q, r, light, c.light_at_infinity == 0u);
-    return sides == 0 ? 2 : sides < 0 ? 1 : 0;
+    return gn_turned_away(gn_plane_side(p, q, r, eye, c.eye_at_infinity == 0u),
+                          gn_plane_side(p, q, r, light, c.light_at_infinity == 0u));
 }
 
 /// RayAnswer: 0 in shadow, 1 lit, 2 unsure.

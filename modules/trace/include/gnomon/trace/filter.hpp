@@ -36,9 +36,10 @@ inline constexpr std::size_t filter_stack = 64;
 
 namespace detail {
 
+/// In the frame's order of axes.
 template <class S>
-[[nodiscard]] formula::Vec3<S> frame_point(formula::GnRay<S> const& ray, math::vec3 const& p) noexcept {
-    return formula::gn_in_frame<S>(ray, {S(p[ray.axis_x.v]), S(p[ray.axis_y.v]), S(p[ray.axis_z.v])});
+[[nodiscard]] formula::Vec3<S> renamed(formula::GnRay<S> const& ray, math::vec3 const& p) noexcept {
+    return {S(p[ray.axis_x.v]), S(p[ray.axis_y.v]), S(p[ray.axis_z.v])};
 }
 
 template <class S>
@@ -64,7 +65,19 @@ template <class S>
 
 template <class S>
 [[nodiscard]] formula::GnMeeting<S> meet(formula::GnRay<S> const& ray, Triangle const& t) noexcept {
-    return formula::gn_meet<S>(ray, frame_point(ray, t[0]), frame_point(ray, t[1]), frame_point(ray, t[2]));
+    return formula::gn_meet<S>(ray, renamed(ray, t[0]), renamed(ray, t[1]), renamed(ray, t[2]));
+}
+
+template <class S>
+[[nodiscard]] Answer filter_separates(Triangle const& t, predicates::Target const& eye, Light const& light) noexcept {
+    auto const side_of = [&](predicates::Target const& to) noexcept {
+        bool const legal = is_valid(to) && (to.at_infinity || in_range(to.xyz));
+        auto const xyz = spread<S>(legal ? to.xyz : math::vec3(0.0F));
+        auto const at = to.at_infinity ? formula::gn_scaled<S>(xyz) : xyz;
+        auto const side = formula::gn_plane_side<S>(spread<S>(t[0]), spread<S>(t[1]), spread<S>(t[2]), at, !to.at_infinity);
+        return legal ? side : formula::Int<S>(2);
+    };
+    return static_cast<Answer>(formula::gn_turned_away<S>(side_of(eye), side_of(light)).v);
 }
 
 /// expects: a usable ray; finite corners within the coordinates allowed.
@@ -76,7 +89,8 @@ template <class S>
     bool const mirrored[3] = {(ray.sign.x < 0.0F).v, (ray.sign.y < 0.0F).v, (ray.sign.z < 0.0F).v};
     for (int i = 0; i < 3; ++i)
         if (mirrored[i]) std::swap(first[axis[i]], last[axis[i]]);
-    return formula::gn_may_touch<S>(ray, frame_point(ray, first), frame_point(ray, last)).v;
+    return formula::gn_may_touch<S>(ray, formula::gn_in_frame<S>(ray, renamed(ray, first)),
+                                    formula::gn_in_frame<S>(ray, renamed(ray, last))).v;
 }
 
 /// Whether the triangle is solid where the segment passes it. expects: that it may be met.
@@ -164,6 +178,13 @@ template <class S, class Solidity>
 [[nodiscard]] inline Answer filter_blocks(Triangle const& t, Segment const& s) noexcept {
     auto const ray = detail::make_ray<float>(s);
     return ray.usable.v ? static_cast<Answer>(detail::meet(ray, t).answer.v) : Answer::unsure;
+}
+
+/// Whether the plane of `t` has eye and light strictly on opposite sides (`blocked`), or unsure.
+///
+/// expects: finite corners, at most `max_filter_coordinate`.
+[[nodiscard]] inline Answer filter_separates(Triangle const& t, predicates::Target const& eye, Light const& light) noexcept {
+    return detail::filter_separates<float>(t, eye, light);
 }
 
 /// `is_blocked(bvh, s, own)`, or unsure.

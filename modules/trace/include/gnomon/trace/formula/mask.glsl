@@ -79,7 +79,8 @@ GN_FN GN_INT gn_wrapped(GN_INT i, GN_INT size, GN_INT wrap) {
 /// expects: a size of 1 to 2^24, a coordinate below 2^30.
 GN_FN GN_TYPE(GnTap) gn_tap(GN_VEC2 coordinate, GN_INT size, GN_INT wrap) {
     GN_PRECISE GN_FLOAT repeated = coordinate.x - gn_floor(coordinate.x);
-    GN_PRECISE GN_FLOAT mirrored = coordinate.x - gn_floor(coordinate.x * 0.5) * 2.0;
+    GN_PRECISE GN_FLOAT half_way = coordinate.x * 0.5;
+    GN_PRECISE GN_FLOAT mirrored = coordinate.x - gn_floor(half_way) * 2.0;
     GN_FLOAT clamped = gn_min(gn_max(coordinate.x, GN_FLOAT(0.0)), GN_FLOAT(1.0));
     GN_FLOAT reduced = GN_SELECT(wrap == 0, repeated, GN_SELECT(wrap == 1, clamped, mirrored));
     GN_PRECISE GN_FLOAT place = reduced * GN_FLOAT(size) - 0.5;
@@ -114,10 +115,10 @@ GN_FN GN_INT gn_solid(GN_VEC4 codes, GN_TYPE(GnTap) u, GN_TYPE(GnTap) v, GN_FLOA
     GN_PRECISE GN_FLOAT u_room = 1.0 - u.error;
     GN_PRECISE GN_FLOAT v_room = 1.0 - v.error;
     GN_BOOL inside = u.weight >= u.error && u.weight <= u_room && v.weight >= v.error && v.weight <= v_room;
-    GN_FLOAT u_slope = gn_max(abs(top_step), abs(bottom_step));
-    GN_FLOAT v_slope = gn_max(abs(codes.z - codes.x), abs(codes.w - codes.y));
-    u_slope = GN_SELECT(inside, u_slope, GN_FLOAT(255.0));
-    v_slope = GN_SELECT(inside, v_slope, GN_FLOAT(255.0));
+    GN_PRECISE GN_FLOAT left_step = codes.z - codes.x;
+    GN_PRECISE GN_FLOAT right_step = codes.w - codes.y;
+    GN_FLOAT u_slope = GN_SELECT(inside, gn_max(abs(top_step), abs(bottom_step)), GN_FLOAT(255.0));
+    GN_FLOAT v_slope = GN_SELECT(inside, gn_max(abs(left_step), abs(right_step)), GN_FLOAT(255.0));
     // 2e and more of the result for each of its roundings: 32e * 255.
     GN_PRECISE GN_FLOAT code_error = (u.error * u_slope + v.error * v_slope) * 1.0625 + 0.0009727478027343750;
     GN_PRECISE GN_FLOAT limit = cutoff * 255.0;

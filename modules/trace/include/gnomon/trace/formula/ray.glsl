@@ -32,6 +32,8 @@ GN_STRUCT(GnRay) {
     GN_FLOAT slope_error;  ///< What the rounding of products with a slope comes to: 6e (sun), 8e (lamp).
     GN_FLOAT end;          ///< z of the lamp; 2^60 for a sun, beyond everything.
     GN_BOOL has_end;
+    GN_BOOL flat_x;  ///< The segment does not move along x at all: told by the bits, so exactly.
+    GN_BOOL flat_y;
     GN_BOOL usable;  ///< Otherwise nothing can be said: the ends are too near to each other.
 };
 
@@ -41,6 +43,14 @@ GN_STRUCT(GnMeeting) {
     GN_VEC3 sides;    ///< Of the edges opposite to the corners: their shares of `total` are the corners' weights.
     GN_FLOAT total;
     GN_FLOAT bound;   ///< Of each side's error; the total's is 5.4 times that.
+};
+
+/// Which sides are exactly 0, by the corners that they are opposite to.
+GN_STRUCT(GnTies) {
+    GN_BOOL a;
+    GN_BOOL b;
+    GN_BOOL c;
+    GN_BOOL parallel;  ///< The segment is parallel to the triangle's plane, exactly.
 };
 
 /// Every coordinate is a number within 2^28, told by the bits: NaN may compare as it likes.
@@ -56,6 +66,24 @@ GN_FN GN_FLOAT gn_component(GN_VEC3 p, GN_INT axis) {
 GN_FN GN_FLOAT gn_least(GN_VEC3 p) { return gn_min(gn_min(p.x, p.y), p.z); }
 GN_FN GN_FLOAT gn_greatest(GN_VEC3 p) { return gn_max(gn_max(p.x, p.y), p.z); }
 GN_FN GN_FLOAT gn_largest_size(GN_VEC3 p) { return gn_max(gn_max(abs(p.x), abs(p.y)), abs(p.z)); }
+
+/// The same number for certain, which == does not tell of two that may be flushed.
+GN_FN GN_BOOL gn_same(GN_FLOAT a, GN_FLOAT b) {
+    return floatBitsToUint(a) == floatBitsToUint(b) || ((floatBitsToUint(a) | floatBitsToUint(b)) << 1) == 0u;
+}
+
+/// Whether a direction without x (`flat_x`), without y or without both lies in the plane of a, b, c for certain: all three
+/// have one x, or one y, or two of them differ in z at most. So it is where the sun stands straight above walls.
+GN_FN GN_BOOL gn_holds_direction(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_BOOL flat_x, GN_BOOL flat_y) {
+    GN_BOOL ab_x = gn_same(a.x, b.x);
+    GN_BOOL bc_x = gn_same(b.x, c.x);
+    GN_BOOL ca_x = gn_same(c.x, a.x);
+    GN_BOOL ab_y = gn_same(a.y, b.y);
+    GN_BOOL bc_y = gn_same(b.y, c.y);
+    GN_BOOL ca_y = gn_same(c.y, a.y);
+    GN_BOOL along_z = flat_x && flat_y && ((ab_x && ab_y) || (bc_x && bc_y) || (ca_x && ca_y));
+    return along_z || (flat_x && ab_x && bc_x) || (flat_y && ab_y && bc_y);
+}
 
 /// A direction times the power of two that brings its largest component into [1, 2): exact but for what is flushed, below f.
 ///
@@ -95,6 +123,10 @@ GN_FN GN_TYPE(GnRay) gn_make_ray(GN_VEC3 start, GN_VEC3 end, GN_BOOL end_is_poin
     ray.slope_error = GN_SELECT(end_is_point, GN_FLOAT(9.5367431640625e-7), GN_FLOAT(7.152557373046875e-7));
     ray.end = GN_SELECT(end_is_point, along, GN_FLOAT(1.152921504606847e18));
     ray.has_end = end_is_point;
+    GN_VEC3 from = GN_VEC3(GN_SELECT(end_is_point, start.x, GN_FLOAT(0.0)), GN_SELECT(end_is_point, start.y, GN_FLOAT(0.0)),
+                           GN_SELECT(end_is_point, start.z, GN_FLOAT(0.0)));
+    ray.flat_x = gn_same(gn_component(from, ray.axis_x), gn_component(end, ray.axis_x));
+    ray.flat_y = gn_same(gn_component(from, ray.axis_y), gn_component(end, ray.axis_y));
     return ray;
 }
 
@@ -136,10 +168,27 @@ GN_FN GN_BOOL gn_may_touch(GN_TYPE(GnRay) ray, GN_VEC3 lo, GN_VEC3 hi) {
            left_of <= left && right_of <= right;
 }
 
-/// Whether the segment meets a triangle with these corners in the frame: whether its ends lie strictly on opposite sides of
+/// What the bits tell of a segment that does not move along x or y, and a triangle: where a corner has the start's x, x' is
+/// exactly 0 there, and a side of two such corners is 0. So it is at the edges of boxes below a sun straight above.
+GN_FN GN_TYPE(GnTies) gn_ties(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VEC3 c) {
+    GN_BOOL ax = ray.flat_x && gn_same(a.x, ray.start.x);
+    GN_BOOL bx = ray.flat_x && gn_same(b.x, ray.start.x);
+    GN_BOOL cx = ray.flat_x && gn_same(c.x, ray.start.x);
+    GN_BOOL ay = ray.flat_y && gn_same(a.y, ray.start.y);
+    GN_BOOL by = ray.flat_y && gn_same(b.y, ray.start.y);
+    GN_BOOL cy = ray.flat_y && gn_same(c.y, ray.start.y);
+    GN_TYPE(GnTies) ties;
+    ties.a = (bx && cx) || (by && cy) || (bx && by) || (cx && cy);
+    ties.b = (cx && ax) || (cy && ay) || (cx && cy) || (ax && ay);
+    ties.c = (ax && bx) || (ay && by) || (ax && ay) || (bx && by);
+    ties.parallel = gn_holds_direction(a, b, c, ray.flat_x, ray.flat_y);
+    return ties;
+}
+
+/// Whether the segment meets the triangle whose corners these are, in the frame's order: whether its ends lie strictly on opposite sides of
 /// the plane and the line passes the closed interior.
 ///
-/// Sheared, so that the segment is the z axis: q = slope z, x' = x - q. Errors, in computed numbers:
+/// In the frame, and sheared, so that the segment is the z axis: q = slope z, x' = x - q. Errors, in computed numbers:
 ///     x:   1.001e |x| + 4f                 q: (4.6 + 1 + 1)e |q| + 2^-84 |z| + 6f, second order included: 6.72e |q| + 2^-54.8
 ///     x':  2.01e |x| + 7.73e |q| + 2^-54.7 (sun: 5.6e |q|), below E = max over corners of 2.125e |x| + slope_error |q| + 2^-54
 ///     u = x1' y2' - y1' x2', with M the largest |x'|, |y'|:  4 M E + 2 E^2 + 4.01e M^2 + 3f, below
@@ -149,8 +198,12 @@ GN_FN GN_BOOL gn_may_touch(GN_TYPE(GnRay) ray, GN_VEC3 lo, GN_VEC3 hi) {
 ///         3 (B Z + 2.01e M^2 Z + 2.01e M^2 Z) + 10.1e M^2 Z < 8.3 B Z
 ///     end total - T:       (5.4 B + 3 * 6.01e M^2) end + (8.3 B + 6.1e M^2) Z < 9.75 B (end + Z)
 /// The constants below are at least 2 % above these; what computing them rounds is less, and 2^-100 stands for what it
-/// flushes. If all sides are certainly of one sign, the line passes the triangle at z = T / total.
-GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VEC3 c) {
+/// flushes. If all sides are certainly of one sign, or certainly 0 but for one, the line passes the triangle at z = T / total.
+GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 corner_a, GN_VEC3 corner_b, GN_VEC3 corner_c) {
+    GN_TYPE(GnTies) ties = gn_ties(ray, corner_a, corner_b, corner_c);
+    GN_VEC3 a = gn_in_frame(ray, corner_a);
+    GN_VEC3 b = gn_in_frame(ray, corner_b);
+    GN_VEC3 c = gn_in_frame(ray, corner_c);
     GN_PRECISE GN_VEC3 qx = GN_VEC3(ray.slope_x * a.z, ray.slope_x * b.z, ray.slope_x * c.z);
     GN_PRECISE GN_VEC3 qy = GN_VEC3(ray.slope_y * a.z, ray.slope_y * b.z, ray.slope_y * c.z);
     GN_PRECISE GN_VEC3 x = GN_VEC3(a.x - qx.x, b.x - qx.y, c.x - qx.z);
@@ -167,16 +220,16 @@ GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VE
     GN_FLOAT z_last = gn_greatest(z);
     GN_PRECISE GN_FLOAT end_wide = ray.end * 1.000000476837158203125 + 8.673617379884035e-19;
     GN_BOOL beside = gn_least(x) > error || gn_greatest(x) < -error || gn_least(y) > error || gn_greatest(y) < -error ||
-                     z_last < 0.0 || z_first > end_wide;
+                     z_last < 0.0 || z_first > end_wide || ties.parallel;
 
     GN_PRECISE GN_FLOAT side_a = x.y * y.z - y.y * x.z;
     GN_PRECISE GN_FLOAT side_b = x.z * y.x - y.z * x.x;
     GN_PRECISE GN_FLOAT side_c = x.x * y.y - y.x * x.y;
     GN_VEC3 sides = GN_VEC3(side_a, side_b, side_c);
-    GN_FLOAT low = gn_least(sides);
-    GN_FLOAT high = gn_greatest(sides);
-    GN_BOOL passes = beside || (low < -bound && high > bound);
-    GN_BOOL meets = low > bound || high < -bound;
+    GN_BOOL passes = beside || (gn_least(sides) < -bound && gn_greatest(sides) > bound);
+    GN_BOOL meets = !(ties.a && ties.b && ties.c) &&
+                    (((side_a > bound || ties.a) && (side_b > bound || ties.b) && (side_c > bound || ties.c)) ||
+                     ((side_a < -bound || ties.a) && (side_b < -bound || ties.b) && (side_c < -bound || ties.c)));
 
     GN_PRECISE GN_FLOAT total = side_a + side_b + side_c;
     GN_PRECISE GN_FLOAT at_plane = side_a * z.x + side_b * z.y + side_c * z.z;
@@ -197,7 +250,7 @@ GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VE
     return meeting;
 }
 
-/// On which side of the plane of a, b, c the target lies, a point or else a direction: 1 or -1 for certain, else 0.
+/// On which side of the plane of a, b, c the target lies, a point or else a direction: 1, -1 or 0 for certain, else 2.
 ///
 ///     ((b - a) x (c - a)) . (target - a)
 ///
@@ -206,6 +259,12 @@ GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VE
 ///
 /// expects: `gn_in_range` of all, or `gn_scaled` of a direction.
 GN_FN GN_INT gn_plane_side(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_VEC3 target, GN_BOOL is_point) {
+    GN_BOOL flat_x = gn_same(target.x, GN_SELECT(is_point, a.x, GN_FLOAT(0.0)));
+    GN_BOOL flat_y = gn_same(target.y, GN_SELECT(is_point, a.y, GN_FLOAT(0.0)));
+    GN_BOOL flat_z = gn_same(target.z, GN_SELECT(is_point, a.z, GN_FLOAT(0.0)));
+    GN_BOOL within = gn_holds_direction(a, b, c, flat_x, flat_y) ||
+                     gn_holds_direction(GN_VEC3(a.y, a.z, a.x), GN_VEC3(b.y, b.z, b.x), GN_VEC3(c.y, c.z, c.x), flat_y, flat_z) ||
+                     gn_holds_direction(GN_VEC3(a.z, a.x, a.y), GN_VEC3(b.z, b.x, b.y), GN_VEC3(c.z, c.x, c.y), flat_z, flat_x);
     GN_PRECISE GN_VEC3 p = b - a;
     GN_PRECISE GN_VEC3 q = c - a;
     GN_PRECISE GN_FLOAT dx = target.x - GN_SELECT(is_point, a.x, GN_FLOAT(0.0));
@@ -221,7 +280,14 @@ GN_FN GN_INT gn_plane_side(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_VEC3 target, GN_B
     GN_PRECISE GN_FLOAT sizes =
         (abs(yz) + abs(zy)) * abs(dx) + (abs(zx) + abs(xz)) * abs(dy) + (abs(xy) + abs(yx)) * abs(dz);
     GN_PRECISE GN_FLOAT bound = sizes * 1.0728836059570312e-6 + 8.673617379884035e-19;
-    return GN_SELECT(side > bound, 1, GN_SELECT(side < -bound, -1, 0));
+    return GN_SELECT(within, 0, GN_SELECT(side > bound, 1, GN_SELECT(side < -bound, -1, 2)));
+}
+
+/// Whether a sample's own plane has eye and light strictly on opposite sides: 0 no, 1 yes, 2 unsure.
+GN_FN GN_INT gn_turned_away(GN_INT eye_side, GN_INT light_side) {
+    GN_BOOL on_plane = eye_side == 0 || light_side == 0;
+    GN_BOOL unsure = eye_side == 2 || light_side == 2;
+    return GN_SELECT(on_plane, 0, GN_SELECT(unsure, 2, GN_SELECT(eye_side == light_side, 0, 1)));
 }
 
 GN_END
