@@ -1,6 +1,7 @@
 #pragma once
 // The arithmetic of the rasterizer, once, in scalar form: the reference that kernels equal bit for bit.
 
+#include <gnomon/math/formula/bits.glsl>
 #include <gnomon/raster/triangle.hpp>
 
 #include "kernel.hpp"
@@ -253,8 +254,7 @@ struct DepthGradient {
 
 /// What a 16-bit target stores, as a float: the nearest code, ties to even.
 [[nodiscard]] inline float to_code(float depth) noexcept {
-    constexpr float magic = 8388608.0F;  // 2^23
-    return (depth * 65535.0F + magic) - magic;
+    return gn_code_of_depth(formula::Float<float>(depth)).v;
 }
 
 }  // namespace gnomon::raster::detail

@@ -28,7 +28,7 @@
 #define GN_END \
     }          \
     _Pragma("GCC diagnostic pop")
-#define GN_FN template <class S> [[nodiscard]] constexpr
+#define GN_FN template <class S> [[nodiscard, gnu::always_inline]] constexpr
 #define GN_PLAIN_FN [[nodiscard]] constexpr
 #define GN_STRUCT(name) template <class S> struct name
 #define GN_TYPE(name) name<S>
@@ -42,7 +42,8 @@
 #define GN_PRECISE
 #define GN_SELECT(mask, yes, no) gn_select(mask, yes, no)
 #define GN_ANY(mask) gn_any(mask)
-#define GN_TEXELS_FN template <class S, class T> [[nodiscard]] constexpr
+#define GN_IN(type) type const&
+#define GN_TEXELS_FN template <class S, class T> [[nodiscard, gnu::always_inline]] constexpr
 #define GN_TEXELS T const&
 #define GN_TEXEL(texels, x, y) gn_texel(texels, x, y)
 
@@ -64,6 +65,7 @@
 #define GN_PRECISE precise
 #define GN_SELECT(mask, yes, no) mix(no, yes, mask)
 #define GN_ANY(mask) (mask)
+#define GN_IN(type) type
 #define GN_TEXELS_FN
 
 // What C++ has from formula.hpp: the least and the greatest, with a NaN in `b` leaving `a`.

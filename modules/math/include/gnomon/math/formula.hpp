@@ -22,6 +22,11 @@ using math::vec2;
 using math::vec3;
 using math::vec4;
 
+[[nodiscard]] constexpr float abs(float x) noexcept { return detail::magnitude(x); }
+[[nodiscard]] constexpr float gn_min(float a, float b) noexcept { return b < a ? b : a; }
+[[nodiscard]] constexpr float gn_max(float a, float b) noexcept { return b > a ? b : a; }
+[[nodiscard]] constexpr float gn_div(float a, float b) noexcept { return a / b; }
+
 template <class S>
 struct Float;
 template <class S>

@@ -2,6 +2,7 @@
 // Morton codes: three coordinates interleaved bit by bit, x lowest. 30 bits (10 per axis) and 63 bits (21 per axis).
 
 #include <gnomon/math/bounds.hpp>
+#include <gnomon/math/formula/bits.glsl>
 #include <gnomon/math/vec.hpp>
 
 #include <cstdint>
@@ -10,11 +11,7 @@ namespace gnomon::math {
 
 /// Bits 0-9 of `x` spread to every third bit.
 [[nodiscard]] constexpr std::uint32_t spread_10(std::uint32_t x) noexcept {
-    x &= 0x3FFU;
-    x = (x | x << 16U) & 0x0300'00FFU;
-    x = (x | x << 8U) & 0x0300'F00FU;
-    x = (x | x << 4U) & 0x030C'30C3U;
-    return (x | x << 2U) & 0x0924'9249U;
+    return gn_spread_10(formula::Uint<float>(x)).v;
 }
 
 /// Bits 0-20 of `x` spread to every third bit.
@@ -28,7 +25,8 @@ namespace gnomon::math {
 }
 
 [[nodiscard]] constexpr std::uint32_t morton_30(std::uint32_t x, std::uint32_t y, std::uint32_t z) noexcept {
-    return spread_10(x) | spread_10(y) << 1U | spread_10(z) << 2U;
+    using Uint = formula::Uint<float>;
+    return gn_morton_30(Uint(x), Uint(y), Uint(z)).v;
 }
 
 [[nodiscard]] constexpr std::uint64_t morton_63(std::uint32_t x, std::uint32_t y, std::uint32_t z) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 // Floating-point neighbours and classification that hold under any rounding-unsafe compiler flag: they work on bits.
 
+#include <gnomon/math/formula/bits.glsl>
 #include <gnomon/math/vec.hpp>
 
 #include <bit>
@@ -54,16 +55,33 @@ template <std::floating_point T>
     return -next_up(-x);
 }
 
+/// The place of `x` in the order of all floats; both zeros are 0.
+[[nodiscard]] constexpr std::int32_t ordinal(float x) noexcept { return gn_ordinal(formula::Float<float>(x)).v; }
+
+/// The float at that place.
+///
+/// expects: the place of a float, so not -2^31.
+[[nodiscard]] constexpr float from_ordinal(std::int32_t place) noexcept {
+    return gn_from_ordinal(formula::Int<float>(place)).v;
+}
+
 /// Number of representable steps from `a` to `b`, counted through zero; both zeros are one value.
 ///
 /// expects: neither is NaN.
 [[nodiscard]] constexpr std::int64_t ulps_between(float a, float b) noexcept {
-    constexpr auto ordinal = [](float x) noexcept -> std::int64_t {
-        auto const bits = std::bit_cast<std::uint32_t>(x);
-        auto const magnitude = static_cast<std::int64_t>(bits & 0x7FFF'FFFFU);
-        return (bits >> 31U) != 0 ? -magnitude : magnitude;
-    };
-    return ordinal(b) - ordinal(a);
+    return std::int64_t{ordinal(b)} - std::int64_t{ordinal(a)};
+}
+
+/// The 16-bit code nearest to a depth, ties to even.
+///
+/// expects: a depth in [0, 1].
+[[nodiscard]] constexpr std::uint16_t code_of_depth(float depth) noexcept {
+    return static_cast<std::uint16_t>(gn_code_of_depth(formula::Float<float>(depth)).v);
+}
+
+/// The depth c / 65535 that a 16-bit code stands for: c times the float nearest to 1 / 65535.
+[[nodiscard]] constexpr float depth_of_code(std::uint16_t code) noexcept {
+    return gn_depth_of_code(formula::Float<float>(static_cast<float>(code))).v;
 }
 
 static_assert(next_up(1.0F) == 1.0F + std::numeric_limits<float>::epsilon());

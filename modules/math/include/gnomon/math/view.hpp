@@ -6,6 +6,7 @@
 // relative to the eye, so that a view 1e7 m from the world's origin is as exact as one that stands on it.
 
 #include <gnomon/core/result.hpp>
+#include <gnomon/math/formula/view.glsl>
 #include <gnomon/math/scalar.hpp>
 #include <gnomon/math/vec.hpp>
 
@@ -119,14 +120,17 @@ struct DepthLine {
 /// Depth in [0, 1] of a point `distance_m` in front of the eye, along the axis of sight.
 [[nodiscard]] inline double depth_from_distance(View const& view, double distance_m) noexcept {
     DepthLine const line = depth_line(view);
-    return view.lens == Lens::orthographic ? line.scale * distance_m + line.offset
-                                           : line.scale + line.offset / distance_m;
+    return gn_depth_from_distance(formula::Float<double>(line.scale), formula::Float<double>(line.offset),
+                                  view.lens == Lens::perspective, formula::Float<double>(distance_m))
+        .v;
 }
 
 /// The distance along the axis of sight that has `depth`; infinite at an infinite far plane.
 [[nodiscard]] inline double distance_from_depth(View const& view, double depth) noexcept {
     DepthLine const line = depth_line(view);
-    return view.lens == Lens::orthographic ? (depth - line.offset) / line.scale : line.offset / (depth - line.scale);
+    return gn_distance_from_depth(formula::Float<double>(line.scale), formula::Float<double>(line.offset),
+                                  view.lens == Lens::perspective, formula::Float<double>(depth))
+        .v;
 }
 
 /// Clip coordinates from a position relative to the eye (world axes, metres).

@@ -5,6 +5,7 @@
 // to fill one of those, mirror the image in x.
 
 #include <gnomon/projection/error.hpp>
+#include <gnomon/projection/formula/cube.glsl>
 
 #include <array>
 #include <cmath>
@@ -31,13 +32,7 @@ inline constexpr std::size_t face_count = 6;
 ///
 /// returns: `positive_x` for the zero vector; some face for a NaN.
 [[nodiscard]] constexpr Face face_of(math::vec3 const& direction) noexcept {
-    constexpr auto size = [](float x) noexcept { return x < 0.0F ? -x : x; };
-    float const x = size(direction.x);
-    float const y = size(direction.y);
-    float const z = size(direction.z);
-    if (x >= y && x >= z) return direction.x < 0.0F ? Face::negative_x : Face::positive_x;
-    if (y >= z) return direction.y < 0.0F ? Face::negative_y : Face::positive_y;
-    return direction.z < 0.0F ? Face::negative_z : Face::positive_z;
+    return static_cast<Face>(gn_face_of(formula::Vec3<float>(direction)).v);
 }
 
 /// The way a face looks, and what is to the right and up in its image. All exact.

@@ -4,7 +4,7 @@
 // A box that slides with the receiver covers its first and last texel in part: those get its share of them, the others
 // one each. Two taps are the bilinear weights of a hardware comparison sampler.
 
-#include <gnomon/math/scalar.hpp>
+#include <gnomon/shadow/formula/pcf.glsl>
 
 #include <cstdint>
 
@@ -20,11 +20,9 @@ struct TapRow {
     float scale = 1.0F;
 
     /// Weight of texel `first + i`.
-    [[nodiscard]] float weight(int i) const noexcept {
-        if (taps == 1) return 1.0F;
-        float const share = i == 0 ? 1.0F - fraction : (i == taps - 1 ? fraction : 1.0F);
-        return share * scale;
-    }
+    [[nodiscard]] float weight(int i) const noexcept { return gn_tap_weight(as_formula(), taps, i).v; }
+
+    [[nodiscard]] formula::GnTapRow<float> as_formula() const noexcept { return {first, fraction, scale}; }
 };
 
 /// The taps round image coordinate `texel` (in texels, a texel's centre at +0.5).
@@ -34,19 +32,8 @@ struct TapRow {
 /// expects: 1 <= taps <= `max_taps`.
 /// returns: a row beyond every map, where `texel` is not finite or beyond +-2^30.
 [[nodiscard]] inline TapRow taps_at(float texel, int taps) noexcept {
-    constexpr float limit = 1073741824.0F;
-    float const start = texel - 0.5F * static_cast<float>(taps - 1);
-    TapRow row;
-    row.taps = taps;
-    row.scale = taps == 1 ? 1.0F : 1.0F / static_cast<float>(taps - 1);
-    if (!(start > -limit && start < limit)) {
-        row.first = -static_cast<std::int32_t>(limit);
-        return row;
-    }
-    row.first = static_cast<std::int32_t>(start);  // toward zero; floor would be a call
-    if (start < static_cast<float>(row.first)) --row.first;
-    row.fraction = start - static_cast<float>(row.first);
-    return row;
+    formula::GnTapRow<float> const row = gn_taps_at(formula::Float<float>(texel), taps);
+    return {row.first.v, taps, row.fraction.v, row.scale};
 }
 
 }  // namespace gnomon::shadow

@@ -6,7 +6,9 @@
 
 #include <gnomon/math/vec.hpp>
 #include <gnomon/math/view.hpp>
+#include <gnomon/shadow/formula/map.glsl>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace gnomon::shadow {
@@ -16,21 +18,15 @@ enum class Format : std::uint8_t {
     unorm16,  ///< Codes c that stand for c / 65535, rounded to nearest.
 };
 
-struct MapView {
-    math::mat4 clip_from_relative{1.0F};
-    math::vec3 eye{0.0F};  ///< Work space, metres.
-    math::vec3 right{1.0F, 0.0F, 0.0F};
-    math::vec3 up{0.0F, 1.0F, 0.0F};
-    math::vec3 back{0.0F, 0.0F, 1.0F};
-    math::vec2 texel{1.0F, 1.0F};  ///< Metres: anywhere (orthographic) or at one metre along the axis (perspective).
-    math::vec2 size_px{1.0F, 1.0F};
-    float depth_scale = 1.0F;  ///< depth = scale * d + offset (orthographic) or scale + offset / d (perspective).
-    float depth_offset = 0.0F;
-    float near_m = 0.0F;
-    float half_code = 0.0F;  ///< Half a step of the stored format, in depth: 0 for f32.
-    bool perspective = false;
-    bool reversed = false;
-};
+/// The constants of a lookup; a shader gets the same bytes. See formula/map.glsl for the members.
+using MapView = formula::GnShadowMap;
+
+static_assert(sizeof(MapView) == 160 && offsetof(MapView, clip_from_relative) == 0 && offsetof(MapView, eye) == 64 &&
+              offsetof(MapView, near_m) == 76 && offsetof(MapView, right) == 80 && offsetof(MapView, depth_scale) == 92 &&
+              offsetof(MapView, up) == 96 && offsetof(MapView, depth_offset) == 108 && offsetof(MapView, back) == 112 &&
+              offsetof(MapView, half_code) == 124 && offsetof(MapView, texel) == 128 &&
+              offsetof(MapView, size_px) == 136 && offsetof(MapView, perspective) == 144 &&
+              offsetof(MapView, reversed) == 148);
 
 /// The lookup's constants for a map drawn with `view`, for positions that are world minus `origin_m`.
 ///
@@ -39,7 +35,7 @@ struct MapView {
                                            Format format = Format::f32) noexcept {
     math::DepthLine const line = math::depth_line(view);
     math::dvec2 const texel = math::pixel_size_m(view, 1.0);
-    MapView map;
+    MapView map{};
     map.clip_from_relative = math::clip_from_relative(view);
     map.eye = math::to_float(view.eye_m - origin_m);
     map.right = math::to_float(view.right);
@@ -51,8 +47,8 @@ struct MapView {
     map.depth_offset = static_cast<float>(line.offset);
     map.near_m = static_cast<float>(view.near_m);
     map.half_code = format == Format::unorm16 ? 0.5F / 65535.0F : 0.0F;
-    map.perspective = view.lens == math::Lens::perspective;
-    map.reversed = view.depth == math::Depth::reversed;
+    map.perspective = view.lens == math::Lens::perspective ? 1U : 0U;
+    map.reversed = view.depth == math::Depth::reversed ? 1U : 0U;
     return map;
 }
 

@@ -3,9 +3,8 @@
 //
 // The plane comes from the geometric normal, not from screen-space differences, so it is right at depth edges too.
 
+#include <gnomon/shadow/formula/receiver.glsl>
 #include <gnomon/shadow/map_view.hpp>
-
-#include <cmath>
 
 namespace gnomon::shadow {
 
@@ -25,6 +24,38 @@ struct Receiver {
     bool in_front = false;      ///< Of the light's own plane; otherwise the map says nothing.
 };
 
+namespace detail {
+
+/// What the formulas say; nothing but that where the receiver is not in front.
+[[nodiscard]] inline Receiver plain(formula::GnReceiver<float> const& at) noexcept {
+    if (!at.in_front.v) return {};
+    return {.texel = math::vec2(at.texel),
+            .depth = at.depth.v,
+            .gradient = math::vec2(at.gradient),
+            .distance_m = at.distance_m.v,
+            .per_axis = at.per_axis.v,
+            .texel_m = at.texel_m.v,
+            .depth_per_m = at.depth_per_m.v,
+            .cos_angle = at.cos_angle.v,
+            .tan_angle = at.tan_angle.v,
+            .in_front = true};
+}
+
+[[nodiscard]] inline formula::GnReceiver<float> as_formula(Receiver const& at) noexcept {
+    return {.texel = formula::Vec2<float>(at.texel),
+            .depth = at.depth,
+            .gradient = formula::Vec2<float>(at.gradient),
+            .distance_m = at.distance_m,
+            .per_axis = at.per_axis,
+            .texel_m = at.texel_m,
+            .depth_per_m = at.depth_per_m,
+            .cos_angle = at.cos_angle,
+            .tan_angle = at.tan_angle,
+            .in_front = at.in_front};
+}
+
+}  // namespace detail
+
 /// Projects `position` and its plane into the map.
 ///
 ///     orthographic: d = (n.r x + n.u y - h) / n.b      depth = scale d + offset
@@ -38,36 +69,7 @@ struct Receiver {
 /// expects: a unit normal. A NaN gives a receiver that is not in front.
 [[nodiscard]] inline Receiver receiver_at(MapView const& map, math::vec3 const& position,
                                           math::vec3 const& normal) noexcept {
-    math::vec3 const relative = position - map.eye;
-    math::vec4 const clip = map.clip_from_relative * math::vec4(relative.x, relative.y, relative.z, 1.0F);
-    float const distance = -glm::dot(map.back, relative);
-    Receiver at;
-    at.in_front = clip.w > 0.0F;
-    if (!at.in_front) return at;
-    float const inverse_w = 1.0F / clip.w;
-    at.texel.x = (clip.x * inverse_w * 0.5F + 0.5F) * map.size_px.x;
-    at.texel.y = (clip.y * inverse_w * 0.5F + 0.5F) * map.size_px.y;
-    at.depth = clip.z * inverse_w;
-    at.distance_m = distance;
-
-    float const longest = map.texel.x > map.texel.y ? map.texel.x : map.texel.y;
-    float const reach = std::sqrt(glm::dot(relative, relative));
-    float const h = glm::dot(normal, relative);
-    float const nb = glm::dot(normal, map.back);
-    at.cos_angle = map.perspective ? -h / reach : nb;
-    at.per_axis = map.perspective ? reach / distance : 1.0F;
-    at.texel_m = map.perspective ? longest * distance : longest;
-    at.depth_per_m = map.perspective ? std::abs(map.depth_offset) / (distance * distance) : std::abs(map.depth_scale);
-
-    constexpr float least = 1.0F / max_tan;
-    float const sine = std::sqrt(glm::max(0.0F, 1.0F - at.cos_angle * at.cos_angle));
-    float const cosine = glm::max(std::abs(at.cos_angle), least);
-    at.tan_angle = sine / cosine;
-    float const steep = std::copysign(cosine, map.perspective ? h : nb);
-    float const k = map.perspective ? map.depth_offset / (steep * reach) : map.depth_scale / steep;
-    at.gradient.x = k * glm::dot(normal, map.right) * map.texel.x;
-    at.gradient.y = -k * glm::dot(normal, map.up) * map.texel.y;
-    return at;
+    return detail::plain(gn_receiver_at(map, formula::Vec3<float>(position), formula::Vec3<float>(normal)));
 }
 
 }  // namespace gnomon::shadow

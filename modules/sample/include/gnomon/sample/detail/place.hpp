@@ -91,14 +91,6 @@ inline void consider_edge(math::dvec3 const& p, math::dvec3 const& q, SampleRay 
     return limited(best.point, t);
 }
 
-/// The place of a float in the order of all floats; both zeros are 0.
-[[nodiscard]] constexpr std::int64_t ordinal(float x) noexcept { return math::ulps_between(0.0F, x); }
-
-[[nodiscard]] constexpr float from_ordinal(std::int64_t place) noexcept {
-    auto const magnitude = static_cast<std::uint32_t>(place < 0 ? -place : place);
-    return std::bit_cast<float>(magnitude | (place < 0 ? 0x8000'0000U : 0U));
-}
-
 /// The axis of the largest component of the normal whose exact sign is not zero, and that sign.
 struct Dominant {
     int axis = 0;
@@ -134,11 +126,11 @@ struct Dominant {
     if (eye_side == Sign::zero || !is_behind(p)) return p;
     Dominant const dominant = dominant_axis(t);
     std::int64_t const direction = dominant.sign == eye_side ? 1 : -1;
-    std::int64_t const start = ordinal(p[dominant.axis]);
-    std::int64_t const room = ordinal(std::numeric_limits<float>::max()) - direction * start;
+    std::int64_t const start = math::ordinal(p[dominant.axis]);
+    std::int64_t const room = math::ordinal(std::numeric_limits<float>::max()) - direction * start;
     auto const moved = [&](std::int64_t steps) noexcept {
         math::vec3 q = p;
-        q[dominant.axis] = from_ordinal(start + direction * steps);
+        q[dominant.axis] = math::from_ordinal(static_cast<std::int32_t>(start + direction * steps));
         return q;
     };
     std::int64_t behind = 0;
