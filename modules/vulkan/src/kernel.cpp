@@ -23,6 +23,16 @@ Result<core::Done> check_counts(ComputeConfig const& config) {
                       std::to_string(max_compute_constant_bytes) + " in fours");
 }
 
+Result<core::Done> check_limits(ComputeConfig const& config, VkPhysicalDeviceLimits const& limits) {
+    if (config.buffers <= limits.maxPerStageDescriptorStorageBuffers &&
+        config.targets <= limits.maxPerStageDescriptorSampledImages)
+        return core::Done{};
+    return refuse(Error::missing_feature, config.name,
+                  "has " + std::to_string(config.buffers) + " buffers and " + std::to_string(config.targets) +
+                      " targets; the device binds " + std::to_string(limits.maxPerStageDescriptorStorageBuffers) +
+                      " and " + std::to_string(limits.maxPerStageDescriptorSampledImages));
+}
+
 Result<core::Done> check_shader(ComputeConfig const& config, ShaderInterface const& shader) {
     auto const& size = shader.local_size;
     if (size[0] != compute_local_size || size[1] != 1 || size[2] != 1)
@@ -67,6 +77,7 @@ Result<Grid> grid_of(std::uint64_t items, VkPhysicalDeviceLimits const& limits, 
 
 Result<ComputeKernel> ComputeKernel::make(GpuRef const& gpu, ComputeConfig const& config) {
     if (auto ok = check_counts(config); !ok) return std::move(ok).failure();
+    if (auto ok = check_limits(config, gpu->properties.limits); !ok) return std::move(ok).failure();
     if (config.spirv.empty())
         return refuse(Error::shader_rejected, config.name, "has no SPIR-V; glslc was missing when this was built");
     auto const shader = reflect(config.spirv, config.name);
@@ -79,6 +90,8 @@ Result<ComputeKernel> ComputeKernel::make(GpuRef const& gpu, ComputeConfig const
     kernel.targets_ = config.targets;
     kernel.constant_bytes_ = config.constant_bytes;
     kernel.takes_grids_ = shader->reads_group_count;
+    for (ShaderBinding const& b : shader->bindings)
+        if (b.binding < config.buffers && !b.read_only) kernel.written_ |= 1U << b.binding;
     if (auto ok = kernel.make_layouts(); !ok) return std::move(ok).failure();
     if (auto ok = kernel.make_pipeline(config.spirv); !ok) return std::move(ok).failure();
     return kernel;

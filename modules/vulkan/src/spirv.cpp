@@ -18,7 +18,7 @@ enum Op : std::uint32_t {
     op_member_decorate = 72, op_execution_mode_id = 331,
 };
 enum Decoration : std::uint32_t {
-    array_stride = 6, matrix_stride = 7, built_in = 11, binding = 33, descriptor_set = 34, offset = 35,
+    array_stride = 6, matrix_stride = 7, built_in = 11, non_writable = 24, binding = 33, descriptor_set = 34, offset = 35,
 };
 enum Storage : std::uint32_t { uniform_constant = 0, uniform = 2, push_constant = 9, storage_buffer = 12 };
 constexpr std::uint32_t mode_local_size = 17;
@@ -120,6 +120,21 @@ VkDescriptorType type_of(Module const& module, Instruction const& variable) noex
     return is_sampled_image ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }
 
+/// GLSL's `readonly` stands on the variable or on every member of its block.
+bool is_read_only(Module const& module, Instruction const& variable) noexcept {
+    auto const is_marked = [](Instruction const& i, std::size_t at) {
+        return i.operands.size() > at && i.operands[at] == non_writable;
+    };
+    Instruction const block = module.find(module.find(variable[0])[2]);
+    if (block.op != op_struct || block.operands.size() < 2) return false;
+    std::size_t marked = 0;
+    for (Instruction const& i : module.all()) {
+        if (i.op == op_decorate && i[0] == variable[1] && is_marked(i, 1)) return true;
+        if (i.op == op_member_decorate && i[0] == block[0] && is_marked(i, 2)) ++marked;
+    }
+    return marked + 1 == block.operands.size();
+}
+
 void add_variable(Module const& module, Instruction const& variable, ShaderInterface& out) {
     std::uint32_t const storage = variable[2];
     if (storage == push_constant)
@@ -129,6 +144,7 @@ void add_variable(Module const& module, Instruction const& variable, ShaderInter
     b.set = module.decoration(variable[1], descriptor_set);
     b.binding = module.decoration(variable[1], binding);
     b.type = type_of(module, variable);
+    b.read_only = is_read_only(module, variable);
     out.bindings.push_back(b);
 }
 

@@ -74,9 +74,11 @@ Result<std::span<StageMs const>> StageTimer::times(std::uint64_t frame, std::uin
     times_.clear();
     if (slot.written > slot.names.size()) {
         if (auto ok = read_ticks(slot); !ok) return std::move(ok).failure();
-        for (std::size_t i = 0; i < slot.names.size(); ++i)
-            times_.push_back({slot.names[i], ms_between(ticks_[i], ticks_[i + 1], gpu_->timestamp_bits,
-                                                        gpu_->properties.limits.timestampPeriod)});
+        float const period_ns = gpu_->properties.limits.timestampPeriod;
+        for (std::size_t i = 0; i < slot.names.size(); ++i) {
+            if (slot.names[i].empty()) continue;
+            times_.push_back({slot.names[i], ms_between(ticks_[i], ticks_[i + 1], gpu_->timestamp_bits, period_ns)});
+        }
     }
     return std::span<StageMs const>(times_);
 }

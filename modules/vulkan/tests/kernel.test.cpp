@@ -37,6 +37,8 @@ TEST_CASE("dispatches that follow each other see each other's results", "[vulkan
     vulkan::GpuRef const gpu = device->gpu();
     auto const kernel = vulkan::ComputeKernel::make(gpu, affine_config());
     REQUIRE(kernel);
+    CHECK_FALSE(kernel->may_write(0));
+    CHECK(kernel->may_write(1));
     vulkan::DescriptorRing sets(gpu, 1);
     std::uint32_t constexpr n = 1000;
     vulkan::Buffer const a = words_buffer(gpu, n);

@@ -17,6 +17,8 @@ TEST_CASE("a shader's group size, bindings and constants are those of its source
     REQUIRE(affine->bindings.size() == 2);
     CHECK(affine->bindings[1].binding == 1);
     CHECK(affine->bindings[1].type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    CHECK(affine->bindings[0].read_only);
+    CHECK_FALSE(affine->bindings[1].read_only);
     CHECK_FALSE(vulkan::reflect(vulkan::test::add_comp, "add")->reads_group_count);
     auto const texels = vulkan::reflect(vulkan::test::texels_comp, "texels");
     REQUIRE(texels);

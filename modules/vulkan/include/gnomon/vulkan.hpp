@@ -2,6 +2,7 @@
 // Adapters over the caller's own Vulkan 1.3 device: they record into the caller's command buffer, and never submit,
 // wait or own the device.
 
+#include <gnomon/vulkan/backend.hpp>
 #include <gnomon/vulkan/barrier.hpp>
 #include <gnomon/vulkan/descriptors.hpp>
 #include <gnomon/vulkan/error.hpp>

@@ -1,7 +1,7 @@
+// The item of an invocation of a kernel, for its GLSL half.
 #ifndef GNOMON_BACKEND_ITEM_GLSL
 #define GNOMON_BACKEND_ITEM_GLSL
-// The item of an invocation of a kernel, for its GLSL half:
-//
+
 //     #version 450
 //     #extension GL_GOOGLE_include_directive : require
 //     #include "gnomon/backend/item.glsl"

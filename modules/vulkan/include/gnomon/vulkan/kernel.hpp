@@ -69,6 +69,8 @@ class ComputeKernel {
     [[nodiscard]] Result<core::Done> record(VkCommandBuffer commands, DescriptorRing& sets,
                                             Dispatch const& dispatch) const;
 
+    /// Whether the shader may write buffer `i`: false where it calls the buffer `readonly`, or knows it not.
+    [[nodiscard]] bool may_write(std::uint32_t i) const noexcept { return ((written_ >> i) & 1U) != 0; }
     /// Whether it runs on more items than one row of groups has.
     [[nodiscard]] bool takes_grids() const noexcept { return takes_grids_; }
 
@@ -86,6 +88,7 @@ class ComputeKernel {
     std::uint32_t buffers_ = 0;
     std::uint32_t targets_ = 0;
     std::uint32_t constant_bytes_ = 0;
+    std::uint32_t written_ = 0;
     bool takes_grids_ = false;
 };
 

@@ -20,6 +20,7 @@ struct ShaderBinding {
     std::uint32_t set = 0;
     std::uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_MAX_ENUM;  ///< MAX_ENUM: a kind that the adapters do not bind.
+    bool read_only = false;  ///< A buffer that is `readonly` as a whole.
 };
 
 struct ShaderInterface {

@@ -23,7 +23,7 @@ struct StageMs {
     return static_cast<double>((end - begin) & mask) * static_cast<double>(period_ns) * 1e-6;
 }
 
-/// Times stages: each lasts to the next one, the last to `end_frame`.
+/// Times stages: each lasts to the next one, the last to `end_frame`. One without a name is not told of.
 ///
 /// A queue without timestamps gives no stages; everything else works. Query pools are added when a frame has more stages
 /// than any before, and kept.
