@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
+#include <gnomon/backend/item.glsl>
 #include <gnomon/trace/formula/mask.glsl>
 
 layout(local_size_x = 64) in;
@@ -96,36 +97,38 @@ int meet_lane(GnRay ray, uint block, uint lane, uint own) {
     return solid == 1 ? meeting.answer : solid;
 }
 
-/// Whether anything but `own` blocks the segment.
-int blocked_by_any(GnRay ray, uint own) {
-    // Along a mirrored axis the box begins at hi.
+/// Whether the segment may touch the box in a node's lane. Along a mirrored axis the box begins at hi.
+bool touches(GnRay ray, uint row, uint lane) {
     ivec3 axis = ivec3(ray.axis_x, ray.axis_y, ray.axis_z);
     bvec3 mirrored = lessThan(ray.sign, vec3(0.0));
-    uvec3 lo_row = uvec3(axis + mix(ivec3(0), ivec3(3), mirrored));
-    uvec3 hi_row = uvec3(axis + mix(ivec3(3), ivec3(0), mirrored));
+    uvec3 lo_row = row + uvec3(axis + mix(ivec3(0), ivec3(3), mirrored));
+    uvec3 hi_row = row + uvec3(axis + mix(ivec3(3), ivec3(0), mirrored));
+    vec3 lo = uintBitsToFloat(uvec3(nodes[lo_row.x][lane], nodes[lo_row.y][lane], nodes[lo_row.z][lane]));
+    vec3 hi = uintBitsToFloat(uvec3(nodes[hi_row.x][lane], nodes[hi_row.y][lane], nodes[hi_row.z][lane]));
+    return gn_may_touch(ray, gn_in_frame(ray, lo), gn_in_frame(ray, hi));
+}
+
+/// Whether anything but `own` blocks the segment.
+int blocked_by_any(GnRay ray, uint own) {
     uint stack[stack_size];
     uint size = 1u;
     stack[0] = 0u;
     bool unsure = false;
     while (size != 0u) {
         uint at = stack[--size];
-        bool is_block = (at & block_flag) != 0u;
-        at &= ~block_flag;
-        uint row = at * 8u;
-        for (uint lane = 0u; lane < 4u; ++lane) {
-            if (is_block) {
-                int met = meet_lane(ray, at, lane, own);
+        if ((at & block_flag) != 0u) {
+            for (uint lane = 0u; lane < 4u; ++lane) {
+                int met = meet_lane(ray, at & ~block_flag, lane, own);
                 if (met == 1) return 1;
                 unsure = unsure || met == 2;
-                continue;
             }
-            uint child = nodes[row + 6u][lane];
-            if (child == none) continue;
-            vec3 lo = uintBitsToFloat(uvec3(nodes[row + lo_row.x][lane], nodes[row + lo_row.y][lane], nodes[row + lo_row.z][lane]));
-            vec3 hi = uintBitsToFloat(uvec3(nodes[row + hi_row.x][lane], nodes[row + hi_row.y][lane], nodes[row + hi_row.z][lane]));
-            if (!gn_may_touch(ray, gn_in_frame(ray, lo), gn_in_frame(ray, hi))) continue;
+            continue;
+        }
+        uvec4 children = nodes[at * 8u + 6u];
+        for (uint lane = 0u; lane < 4u; ++lane) {
+            if (children[lane] == none || !touches(ray, at * 8u, lane)) continue;
             if (size == stack_size) unsure = true;
-            else stack[size++] = child;
+            else stack[size++] = children[lane];
         }
     }
     return unsure ? 2 : 0;
@@ -169,6 +172,6 @@ uint answer_of(uint i) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = GNOMON_ITEM;
     if (i < c.count) answers[i] = answer_of(i);
 }
