@@ -108,8 +108,20 @@ bool touches(GnRay ray, uint row, uint lane) {
     return gn_may_touch(ray, gn_in_frame(ray, lo), gn_in_frame(ray, hi));
 }
 
+/// Whether the filter may be asked about all that is in the hierarchy.
+bool root_in_range() {
+    bool all_in = true;
+    for (uint lane = 0u; lane < 4u; ++lane) {
+        vec3 lo = uintBitsToFloat(uvec3(nodes[0][lane], nodes[1][lane], nodes[2][lane]));
+        vec3 hi = uintBitsToFloat(uvec3(nodes[3][lane], nodes[4][lane], nodes[5][lane]));
+        all_in = all_in && (nodes[6][lane] == none || (gn_in_range(lo) && gn_in_range(hi)));
+    }
+    return all_in;
+}
+
 /// Whether anything but `own` blocks the segment.
 int blocked_by_any(GnRay ray, uint own) {
+    if (!root_in_range()) return 2;
     uint stack[stack_size];
     uint size = 1u;
     stack[0] = 0u;

@@ -195,6 +195,7 @@ int rejected_boxes(int count, std::uint64_t seed) {
     return rejected;
 }
 
+template <std::size_t StackSize = trace::filter_stack>
 Tally compare_scenes(int scene_count, int segments, std::uint64_t seed) {
     Random random{seed};
     Tally tally;
@@ -208,7 +209,7 @@ Tally compare_scenes(int scene_count, int segments, std::uint64_t seed) {
             if (!is_valid(s)) continue;
             TriangleId const own(static_cast<std::uint32_t>(random.below(20)));
             sloppy::redraw();
-            Answer const got = trace::detail::filter_blocked<Sloppy>(bvh, s, own, trace::detail::AllSolid{});
+            Answer const got = trace::detail::filter_blocked<Sloppy, StackSize>(bvh, s, own, trace::detail::AllSolid{});
             bool const truth = is_blocked(bvh, s, own);
             ++tally.asked;
             tally.unsure += got == Answer::unsure ? 1 : 0;
@@ -353,6 +354,23 @@ TEST_CASE("the filter's walk of a hierarchy is exact where it is sure, on random
     CHECK(tally.wrong == 0);
     CHECK(tally.blocked > 3'000);
     CHECK(tally.unsure < tally.asked / 2);
+}
+
+TEST_CASE("a walk that forgets subtrees for want of room is unsure, not wrong", "[trace][filter]") {
+    Tally const tally = compare_scenes<4>(10, 1'000, 80);
+    CHECK(tally.wrong == 0);
+    CHECK(tally.unsure > compare_scenes(10, 1'000, 80).unsure + 300);
+}
+
+TEST_CASE("a vertex beyond the filter's range makes the hierarchy unsure", "[trace][filter]") {
+    Mesh mesh;
+    mesh.add(math::vec3(-1.0F, 1.0F, -1.0F), math::vec3(1.0F, 1.0F, -1.0F), math::vec3(0.0F, 1.0F, 1.0F));
+    Segment const s{math::vec3(0.0F), Light::direction(math::vec3(0.0F, 1.0F, 0.0F))};
+    CHECK(filter_blocked(trace::build_bvh(mesh.list()), s) == Answer::blocked);
+    CHECK(filter_blocked(trace::build_bvh(mesh.list()), s, TriangleId(0)) == Answer::free);
+    mesh.add(math::vec3(5.0F, 1.0F, -1.0F), math::vec3(6.0F, 1.0F, 3e8F), math::vec3(7.0F, 1.0F, 1.0F));
+    CHECK(filter_blocked(trace::build_bvh(mesh.list()), s) == Answer::unsure);
+    CHECK(filter_blocked(trace::Bvh{}, s) == Answer::free);
 }
 
 TEST_CASE("the filter never takes a hole for solid or solid for a hole, whatever each operation rounds", "[trace][filter][alpha][property]") {

@@ -137,13 +137,24 @@ struct MaskFilter {
     }
 };
 
+/// All coordinates of the hierarchy are such that the filter may be asked.
+[[nodiscard]] inline bool in_range(Node const& root) noexcept {
+    bool all = true;
+    for (std::size_t i = 0; i < width; ++i) {
+        if (root.child[i].is_empty()) continue;
+        all = all && in_range(math::vec3(root.lo[0][i], root.lo[1][i], root.lo[2][i])) &&
+              in_range(math::vec3(root.hi[0][i], root.hi[1][i], root.hi[2][i]));
+    }
+    return all;
+}
+
 /// The walk that the shader makes, step by step.
-template <class S, class Solidity>
+template <class S, std::size_t StackSize = filter_stack, class Solidity>
 [[nodiscard]] Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own, Solidity const& solidity) noexcept {
     if (bvh.nodes.empty()) return Answer::free;
     formula::GnRay<S> const ray = make_ray<S>(s);
-    if (!ray.usable.v) return Answer::unsure;
-    std::array<Child, filter_stack> stack;
+    if (!ray.usable.v || !in_range(bvh.nodes.front())) return Answer::unsure;
+    std::array<Child, StackSize> stack;
     std::size_t size = 0;
     stack[size++] = Child::node(0);
     bool unsure = false;
@@ -154,7 +165,7 @@ template <class S, class Solidity>
                 Node const& node = bvh.nodes[at.index()];
                 auto const corner = [&](float const (*from)[width]) { return math::vec3(from[0][i], from[1][i], from[2][i]); };
                 if (node.child[i].is_empty() || !may_touch(ray, corner(node.lo), corner(node.hi))) continue;
-                if (size == filter_stack) unsure = true;
+                if (size == StackSize) unsure = true;
                 else stack[size++] = node.child[i];
                 continue;
             }
@@ -189,7 +200,7 @@ template <class S, class Solidity>
 
 /// `is_blocked(bvh, s, own)`, or unsure.
 ///
-/// expects: `bvh` passes `validate` and has no coordinate above `max_filter_coordinate`.
+/// expects: `bvh` passes `validate`.
 [[nodiscard]] inline Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own = {}) noexcept {
     return detail::filter_blocked<float>(bvh, s, own, detail::AllSolid{});
 }
