@@ -24,7 +24,8 @@ namespace gnomon::vulkan {
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) X(CmdBindPipeline)                         \
     X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdBindVertexBuffers) X(CmdBindIndexBuffer)                \
     X(CmdSetViewport) X(CmdSetScissor) X(CmdSetDepthBias) X(CmdSetCullMode) X(CmdSetFrontFace)                \
-    X(CmdSetDepthCompareOp) X(CmdDraw) X(CmdDrawIndirect) X(CmdDrawIndexed) X(CmdDrawIndexedIndirect)         \
+    X(CmdSetDepthCompareOp) X(CmdSetDepthWriteEnable) X(CmdSetDepthBiasEnable) X(CmdDraw) X(CmdDrawIndirect)  \
+    X(CmdDrawIndexed) X(CmdDrawIndexedIndirect)                                                               \
     X(CmdDrawIndexedIndirectCount) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdCopyBuffer) X(CmdCopyImage)     \
     X(CmdCopyImageToBuffer) X(CmdCopyBufferToImage) X(CmdFillBuffer) X(CmdUpdateBuffer)                       \
     X(CmdClearColorImage) X(CmdClearDepthStencilImage) X(CmdClearAttachments) X(CmdResetQueryPool)            \

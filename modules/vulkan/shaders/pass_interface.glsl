@@ -1,0 +1,34 @@
+// What the shaders of a pass share: the layouts of src/pass_layout.hpp.
+
+const uint none = 0xFFFFFFFFu;
+
+struct View {
+    vec4 column[4];  // clip_from_relative
+    vec3 origin;
+    uint layer;
+    uvec2 groups;
+    uvec2 unused;
+};
+
+/// An instance of a draw.
+struct Item {
+    uint first_triangle;
+    uint matrix;    // Among the instanced, or none.
+    uint alpha;     // Its alpha test, or none.
+    uint uv_shift;  // From a corner's place in the positions to its place in the coordinates; wraps.
+    uvec2 groups;
+    uint first_index;
+    uint first_position;
+};
+
+layout(set = 0, binding = 0, std140) uniform Views { View views[64]; };
+layout(set = 0, binding = 1, std430) readonly buffer Items { Item items[]; };
+
+layout(push_constant) uniform Push {
+    uint first_view;
+    uint layers;        // Of the call: instance i of the call is item i / layers in view first_view + i % layers.
+    uint matrix_views;  // Views that each instance has a matrix for.
+    uint instanced;     // Number of matrices.
+    float bias_constant;
+    float bias_slope;
+} push;

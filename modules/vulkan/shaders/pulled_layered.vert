@@ -1,0 +1,7 @@
+#version 450
+// Corners pulled from buffers, so that a triangle knows its number; the layer from the vertex shader.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_ARB_shader_viewport_layer_array : require
+#define GNOMON_PULLED 1
+#define GNOMON_LAYER 1
+#include "pass_vertex.glsl"

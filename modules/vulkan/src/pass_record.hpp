@@ -1,0 +1,40 @@
+#pragma once
+// The parts of recording that passes and queries share: views, matrices, the rendering, viewport and clears.
+
+#include <gnomon/vulkan/draws.hpp>
+#include <gnomon/vulkan/target.hpp>
+
+#include "draw_list.hpp"
+#include "pass_plan.hpp"
+
+namespace gnomon::vulkan::detail {
+
+/// Writes the chunk's views, and the matrices that instances have in them, into the list's next slot.
+///
+/// returns: the slot's dynamic offset.
+std::uint32_t record_views(VkCommandBuffer commands, DrawList::State& list, Chunk const& chunk);
+
+/// Which images a rendering has, and what it begins with.
+struct Rendering {
+    VkImageView depth = VK_NULL_HANDLE;
+    VkImageView triangle = VK_NULL_HANDLE;  ///< Or none.
+    VkImageLayout layout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
+    math::ivec2 size_px{0, 0};
+    std::uint32_t layers = 1;
+    bool clears = false;
+    float clear_depth = 0.0F;
+};
+
+void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& rendering);
+
+[[nodiscard]] constexpr float farthest(math::Depth depth) noexcept { return depth == math::Depth::reversed ? 0.0F : 1.0F; }
+
+/// Viewport, scissor and depth compare of a bundle.
+void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle);
+
+/// Clears the bundle's area in one layer of the rendering.
+void clear_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle, std::uint32_t layer, bool triangle_ids);
+
+[[nodiscard]] Result<core::Done> check_layer(Gpu const& gpu, backend::PassLayer const& layer, Target const& target);
+
+}  // namespace gnomon::vulkan::detail
