@@ -18,7 +18,7 @@ layout(location = 0) out vec2 uv;
 layout(location = 1) flat out uint triangle;  // Of the item's first triangle; of this one where corners are pulled.
 layout(location = 2) flat out uint alpha;
 layout(location = 3) out float depth_times_w;
-#ifndef GNOMON_LAYER
+#ifdef GNOMON_GEOMETRY
 layout(location = 4) flat out uint layer;
 #endif
 
@@ -55,7 +55,8 @@ void main() {
     gl_Position = clip;
 #ifdef GNOMON_LAYER
     gl_Layer = int(views[view].layer);
-#else
+#endif
+#ifdef GNOMON_GEOMETRY
     layer = views[view].layer;
 #endif
 }

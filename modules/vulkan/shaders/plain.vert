@@ -1,4 +1,4 @@
 #version 450
-// The layer for a geometry shader, or for nobody.
+// One layer at a time.
 #extension GL_GOOGLE_include_directive : require
 #include "pass_vertex.glsl"

@@ -83,6 +83,10 @@ struct DrawList::State {
     StagedFaults faults;
     std::uint32_t next_slot = 0;
 
+    /// The index buffer is bound from its first byte on: lavapipe 22 forgets an offset in indirect draws.
+    [[nodiscard]] std::uint32_t first_index() const noexcept {
+        return static_cast<std::uint32_t>(bound[detail::binding_indices].offset / 4);
+    }
     [[nodiscard]] detail::CommandOrder const& order(bool ids) const noexcept {
         return ids && !in_order.commands.empty() ? in_order : sorted;
     }

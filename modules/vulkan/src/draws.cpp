@@ -1,6 +1,9 @@
 #include <gnomon/vulkan/draws.hpp>
 
+#include <gnomon/math/scalar.hpp>
+
 #include "draw_list.hpp"
+#include "memory_barrier.hpp"
 #include "stage_draws.hpp"
 
 #include <algorithm>
@@ -15,6 +18,7 @@ using detail::CallState;
 using detail::CommandOrder;
 using detail::DrawCommand;
 using detail::Section;
+using detail::record_barrier;
 
 constexpr VkDeviceSize section_alignment = 256;  // The most that a device may ask of a storage buffer's offset.
 
@@ -86,12 +90,13 @@ void lay_out(DrawList::State& state, Layout& layout, detail::StagedDraws const& 
 }
 
 /// The commands of 1, 2, .. max_layers layers, one after the other.
-void write_commands(std::span<std::byte> bytes, CommandOrder const& order, std::uint32_t max_layers) {
+void write_commands(std::span<std::byte> bytes, DrawList::State const& state, CommandOrder const& order) {
     std::byte* indexed = bytes.data() + order.indexed.offset;
     std::byte* pulled = bytes.data() + order.pulled.offset;
-    for (std::uint32_t layers = 1; layers <= max_layers; ++layers)
+    for (std::uint32_t layers = 1; layers <= state.config.max_layers; ++layers)
         for (DrawCommand const& c : order.commands) {
-            VkDrawIndexedIndirectCommand const command{c.corners, c.instances * layers, c.first_index,
+            VkDrawIndexedIndirectCommand const command{c.corners, c.instances * layers,
+                                                       state.first_index() + c.first_index,
                                                        static_cast<std::int32_t>(c.first_position),
                                                        c.first_item * layers};
             std::memcpy(indexed, &command, sizeof command);
@@ -113,7 +118,7 @@ void write_all(DrawList::State const& state, detail::StagedDraws const& staged) 
     copy_to(bytes, state.bound[detail::binding_indices], staged.indices);
     copy_to(bytes, state.bound[detail::binding_instances], staged.instances);
     for (CommandOrder const* order : {&state.sorted, &state.in_order})
-        if (order->indexed.size != 0) write_commands(bytes, *order, state.config.max_layers);
+        if (order->indexed.size != 0) write_commands(bytes, state, *order);
 }
 
 Result<core::Done> check_limits(DrawList::State const& state, detail::StagedDraws const& staged) {
@@ -162,19 +167,9 @@ Result<core::Done> make_buffers(DrawList::State& state, Layout const& layout) {
     return core::Done{};
 }
 
-void barrier_after_copy(Gpu const& gpu, VkCommandBuffer commands) {
-    VkMemoryBarrier2 barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &barrier;
-    gpu.call.CmdPipelineBarrier2(commands, &info);
-}
+constexpr detail::BarrierHalf after_copy{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr detail::BarrierHalf before_draws{
+    VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
 
 }  // namespace
 
@@ -195,36 +190,40 @@ void DrawList::record_upload(VkCommandBuffer commands) {
     GNOMON_EXPECT(state_->staging.handle);
     VkBufferCopy const all{0, 0, state_->fixed.size};
     gpu.call.CmdCopyBuffer(commands, state_->staging.handle.get(), state_->fixed.handle.get(), 1, &all);
-    barrier_after_copy(gpu, commands);
+    record_barrier(gpu, commands, after_copy, before_draws);
 }
 
-Result<core::Done> record_update(VkCommandBuffer commands, DrawList& list, std::size_t draw,
-                                 PositionSource const& source) {
+Result<std::uint64_t> record_update(VkCommandBuffer commands, DrawList& list, std::size_t draw,
+                                    core::StridedSpan<math::vec3> const& positions, HostRing& ring) {
     DrawList::State const& state = list.state();
-    if (draw >= state.positions.size())
-        return core::Failure{Error::bad_argument, "record_update: draw " + std::to_string(draw) + " of a list of " +
-                                                      std::to_string(state.positions.size())};
+    if (draw >= state.positions.size() || positions.size() != state.positions[draw].count)
+        return core::Failure{Error::bad_argument,
+                             "record_update: draw " + std::to_string(draw) + " with " + std::to_string(positions.size()) +
+                                 " positions, of a list of " + std::to_string(state.positions.size()) +
+                                 " draws; they keep the number of positions that they were made with"};
     detail::PositionRange const& range = state.positions[draw];
-    if (range.count == 0) return core::Done{};
+    if (range.count == 0) return std::uint64_t{0};
     Gpu const& gpu = *state.pipelines->gpu();
-    VkMemoryBarrier2 before{};
-    before.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    before.srcStageMask = VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
-                          VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    before.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    before.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    before.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &before;
-    gpu.call.CmdPipelineBarrier2(commands, &info);
-    VkBufferCopy const copy{source.offset,
+    auto slice = ring.take(VkDeviceSize{range.count} * 12);
+    if (!slice) return std::move(slice).failure();
+    std::uint64_t not_finite = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        math::vec3 const p = positions[i];
+        float const packed[3] = {p.x, p.y, p.z};
+        std::memcpy(slice->bytes.data() + i * sizeof packed, packed, sizeof packed);
+        not_finite += math::is_finite(p.x) && math::is_finite(p.y) && math::is_finite(p.z) ? 0U : 1U;
+    }
+    record_barrier(gpu, commands,
+                   {VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                        VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                    VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                   {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT});
+    VkBufferCopy const copy{slice->offset,
                             state.bound[detail::binding_positions].offset + VkDeviceSize{range.first} * 12,
                             VkDeviceSize{range.count} * 12};
-    gpu.call.CmdCopyBuffer(commands, source.buffer, state.fixed.handle.get(), 1, &copy);
-    barrier_after_copy(gpu, commands);
-    return core::Done{};
+    gpu.call.CmdCopyBuffer(commands, slice->buffer, state.fixed.handle.get(), 1, &copy);
+    record_barrier(gpu, commands, after_copy, before_draws);
+    return not_finite;
 }
 
 Result<DrawList> make_draw_list(PassPipelinesRef const& pipelines, std::span<backend::Draw const> draws,

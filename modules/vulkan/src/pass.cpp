@@ -123,7 +123,7 @@ class PassRecorder {
         VkBuffer const buffer = list_.fixed.handle.get();
         VkDeviceSize const positions = list_.bound[detail::binding_positions].offset;
         gpu_.call.CmdBindVertexBuffers(commands_, 0, 1, &buffer, &positions);
-        gpu_.call.CmdBindIndexBuffer(commands_, buffer, list_.bound[detail::binding_indices].offset, VK_INDEX_TYPE_UINT32);
+        gpu_.call.CmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
         gpu_.call.CmdSetDepthWriteEnable(commands_, VK_TRUE);
     }
 
@@ -181,7 +181,8 @@ class PassRecorder {
             if (pulled)
                 gpu_.call.CmdDraw(commands_, c.corners, c.instances * layers, 0, c.first_item * layers);
             else
-                gpu_.call.CmdDrawIndexed(commands_, c.corners, c.instances * layers, c.first_index,
+                gpu_.call.CmdDrawIndexed(commands_, c.corners, c.instances * layers,
+                                         list_.first_index() + c.first_index,
                                          static_cast<std::int32_t>(c.first_position), c.first_item * layers);
             ++counts_.draw_calls;
         }

@@ -7,6 +7,7 @@
 
 #include "shaders/depth_clamped_frag.hpp"
 #include "shaders/depth_frag.hpp"
+#include "shaders/for_geometry_vert.hpp"
 #include "shaders/ids_clamped_frag.hpp"
 #include "shaders/ids_frag.hpp"
 #include "shaders/instances_comp.hpp"
@@ -51,8 +52,10 @@ struct Source {
     std::string_view name;
 };
 
-Source vertex_source(bool layered, bool pulled) noexcept {
-    if (layered) return pulled ? Source{pulled_layered_vert, "pulled_layered.vert"} : Source{layered_vert, "layered.vert"};
+Source vertex_source(LayerMode mode, bool pulled) noexcept {
+    if (mode == LayerMode::geometry_shader) return {for_geometry_vert, "for_geometry.vert"};
+    if (mode == LayerMode::vertex_shader)
+        return pulled ? Source{pulled_layered_vert, "pulled_layered.vert"} : Source{layered_vert, "layered.vert"};
     return pulled ? Source{pulled_vert, "pulled.vert"} : Source{plain_vert, "plain.vert"};
 }
 
@@ -119,7 +122,7 @@ Result<UniquePipeline> make_pipeline(PassPipelines const& passes, PassKind const
     bool const pulled = kind.triangle_ids && passes.pulls_ids();
     bool const clamped = kind.range == backend::DepthRange::clamp;
     bool const clamps_in_shader = clamped && !gpu->features.depth_clamp;
-    Source const vertex = vertex_source(passes.layer_mode() == LayerMode::vertex_shader, pulled);
+    Source const vertex = vertex_source(passes.layer_mode(), pulled);
     auto vertex_shader = make_shader(gpu, vertex.words, vertex.name);
     if (!vertex_shader) return std::move(vertex_shader).failure();
     detail::GraphicsPipeline build;

@@ -1,6 +1,7 @@
 #include "pass_record.hpp"
 
 #include "graphics_pipeline.hpp"
+#include "memory_barrier.hpp"
 
 #include <algorithm>
 #include <string>
@@ -12,25 +13,6 @@ namespace {
 constexpr VkPipelineStageFlags2 copy_stage = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 constexpr VkPipelineStageFlags2 vertex_stage = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
 constexpr VkPipelineStageFlags2 compute_stage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-
-struct Half {
-    VkPipelineStageFlags2 stages;
-    VkAccessFlags2 access;
-};
-
-void record_barrier(Gpu const& gpu, VkCommandBuffer commands, Half const& from, Half const& to) {
-    VkMemoryBarrier2 barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    barrier.srcStageMask = from.stages;
-    barrier.srcAccessMask = from.access;
-    barrier.dstStageMask = to.stages;
-    barrier.dstAccessMask = to.access;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &barrier;
-    gpu.call.CmdPipelineBarrier2(commands, &info);
-}
 
 /// Before a slot or the matrices are written again: what was recorded with them has read them.
 void wait_for_readers(DrawList::State const& list, VkCommandBuffer commands) {

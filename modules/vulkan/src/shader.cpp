@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint32_t magic = 0x07230203U;
 constexpr std::size_t header_words = 5;
-constexpr std::uint32_t op_decorate = 71;
-constexpr std::uint32_t no_contraction = 42;
+constexpr std::uint32_t decorate = 71;
+constexpr std::uint32_t no_contraction_mark = 42;
 
 /// Whether contraction concerns the instruction: float sums, products and what is made of them.
 constexpr bool is_arithmetic(std::uint32_t op) noexcept {
@@ -49,10 +49,10 @@ std::vector<std::uint32_t> without_contraction(std::span<std::uint32_t const> wo
         std::size_t const length = words[at] >> 16U;
         if (length == 0 || at + length > words.size()) return out;
         if (types == 0 && begins_types(op)) types = at;
-        bool const is_mark = op == op_decorate && length == 3 && words[at + 2] == no_contraction;
+        bool const is_mark = op == decorate && length == 3 && words[at + 2] == no_contraction_mark;
         if (is_mark && words[at + 1] < marked.size()) marked[words[at + 1]] = 1;
         if (is_arithmetic(op) && length > 2 && words[at + 2] < marked.size() && marked[words[at + 2]] == 0)
-            marks.insert(marks.end(), {(3U << 16U) | op_decorate, words[at + 2], no_contraction});
+            marks.insert(marks.end(), {(3U << 16U) | decorate, words[at + 2], no_contraction_mark});
         at += length;
     }
     if (types != 0) out.insert(out.begin() + static_cast<std::ptrdiff_t>(types), marks.begin(), marks.end());

@@ -6,6 +6,7 @@
 #include <gnomon/core/strided_span.hpp>
 #include <gnomon/vulkan/pass_pipelines.hpp>
 #include <gnomon/vulkan/resources.hpp>
+#include <gnomon/vulkan/ring.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -55,19 +56,16 @@ class DrawList {
     std::unique_ptr<State> state_;
 };
 
-/// Where moved positions come from: packed, in a buffer that the device may copy from.
-struct PositionSource {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< Of usage TRANSFER_SRC; often a slice of a ring.
-    VkDeviceSize offset = 0;           ///< A multiple of 4.
-};
-
-/// Records the copy of all positions of draw `draw` (its place in the span that the list was made of) from `source`.
-/// Draws that shared the span share the change.
+/// Moves the positions of draw `draw`, its place in the span that the list was made of: writes them into `ring` and
+/// records the copy from there. Draws that shared the span share the change.
 ///
-/// expects: as many positions as the draw had, 12 bytes each. A triangle with one that is NaN or infinite is not drawn.
-/// returns: `bad_argument` for a draw that is not there.
-[[nodiscard]] Result<core::Done> record_update(VkCommandBuffer commands, DrawList& list, std::size_t draw,
-                                               PositionSource const& source);
+/// Outside of a rendering; one barrier before the copy and one after it.
+/// expects: as many positions as the draw had. The ring is flushed before the submit.
+/// returns: how many are NaN or infinite: devices drop their triangles, as they drop what has no place, though no
+///          specification says so. `bad_argument` for a draw that is not there, `too_large` when the ring is full; then
+///          nothing was recorded.
+[[nodiscard]] Result<std::uint64_t> record_update(VkCommandBuffer commands, DrawList& list, std::size_t draw,
+                                                  core::StridedSpan<math::vec3> const& positions, HostRing& ring);
 
 /// Copies draws into host-visible memory and makes all that drawing them takes.
 ///

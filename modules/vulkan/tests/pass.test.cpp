@@ -1,0 +1,144 @@
+#include "pass_rig.hpp"
+#include "pass_scenes.hpp"
+
+#include <gnomon/check/check.hpp>
+
+using namespace gnomon;
+using namespace gnomon::vulkan::test;
+
+namespace {
+
+using Passes = std::vector<std::vector<backend::PassLayer>>;
+
+/// Both backends' images are the same: coverage; depth within 1e-6 or one code, but for a pixel of a sliver, whose
+/// plane is steep; ids, but for depths that tie within that.
+void check_images(Pixels const& cpu, Pixels const& gpu, backend::TargetConfig const& config, math::Depth depth) {
+    bool const is_f32 = config.depth == backend::DepthFormat::f32;
+    bool const reversed = depth == math::Depth::reversed;
+    Difference const d = is_f32 ? difference_of(cpu, gpu, reversed ? 0.0F : 1.0F)
+                                : difference_of_codes(cpu, gpu, reversed ? 0.0F : 65535.0F);
+    INFO(d.text());
+    CHECK(d.covered > 0);
+    CHECK(d.coverage == 0);
+    CHECK(d.other_surface == 0);
+    CHECK(d.worst <= (is_f32 ? 1e-6 : 1.0));
+    CHECK(d.beyond <= 1);
+    CHECK(d.other_id <= d.covered / 5000);
+}
+
+void check_same(PassRig& rig, std::span<backend::Draw const> draws, backend::TargetConfig const& config,
+                Passes const& passes) {
+    check_images(draw_on_cpu(draws, config, passes), rig.draw_all(draws, config, passes), config,
+                 passes.front().front().depth);
+}
+
+/// With all features, and without those of each fallback in turn.
+std::vector<vulkan::Features> with_fallbacks(vulkan::Features const& all) {
+    std::vector<vulkan::Features> list(8, all);
+    list[1].multi_draw_indirect = false;
+    list[2].draw_indirect_first_instance = false;
+    list[3].layer_from_vertex_shader = false;
+    list[4].geometry_shader = false;
+    list[5].geometry_shader = list[5].layer_from_vertex_shader = false;
+    list[6].depth_clamp = false;
+    list[7] = vulkan::Features{};
+    return list;
+}
+
+/// Six views round the soup, each in a layer of its own.
+std::vector<backend::PassLayer> views_of_layers(math::ivec2 size_px) {
+    std::vector<backend::PassLayer> layers;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        double const angle = 0.15 * i;
+        backend::PassLayer layer = layer_of(camera(size_px, math::Depth::reversed, {angle * 3.0, 0.4 * i - 1.0, 1.0 + angle}));
+        layer.layer = 5 - i;
+        layers.push_back(layer);
+    }
+    return layers;
+}
+
+}  // namespace
+
+TEST_CASE("a pass on the device draws what the CPU draws, in both depth directions and formats", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    {
+        PassRig rig(*device, device->gpu());
+        for (math::Depth depth : {math::Depth::reversed, math::Depth::forward})
+            for (bool ids : {false, true}) {
+                Soup const soup = make_soup(7, 300, 0.7F);
+                backend::Draw const draw = soup.draw();
+                backend::TargetConfig config{.size_px = {200, 150}, .triangle_ids = ids};
+                check_same(rig, {&draw, 1}, config, {{layer_of(camera(config.size_px, depth))}});
+                if (ids) continue;
+                config.depth = backend::DepthFormat::unorm16;
+                check_same(rig, {&draw, 1}, config, {{layer_of(camera(config.size_px, depth))}});
+            }
+    }
+    CHECK(device->live().total() == 0);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("layers, groups, culling, instances and clamped depth are the CPU's with every fallback", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    Soup const soups[3] = {make_soup(1, 90, 0.8F), make_soup(2, 70, 0.6F), make_soup(3, 20, 0.4F)};
+    std::vector<math::mat4> places(5, math::mat4(1.0F));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[i][3] = math::vec4(static_cast<float>(i) * 0.7F - 1.4F, 0.3F, -0.2F * static_cast<float>(i), 1.0F);
+        places[i][0][1] = 0.3F;
+    }
+    std::vector<backend::Draw> draws;
+    for (std::size_t i = 0; i < 6; ++i) {
+        backend::Draw draw = soups[i % 3].draw();
+        draw.cull = static_cast<backend::Cull>(i % 3);
+        draw.first_triangle = static_cast<std::uint32_t>(1000 * i);
+        draw.groups = i == 4 ? 2 : 1;
+        draws.push_back(draw);
+    }
+    draws[2].instances = core::StridedSpan<math::mat4>(std::span<math::mat4 const>(places));
+    for (vulkan::Features const& features : with_fallbacks(device->features())) {
+        PassRig rig(*device, device->gpu_with(features));
+        for (bool ids : {false, true}) {
+            backend::TargetConfig const config{.size_px = {96, 80}, .layers = 6, .triangle_ids = ids};
+            Passes passes{views_of_layers(config.size_px)};
+            passes[0][1].groups = 2;
+            passes[0][2].groups = 3;
+            passes[0][3].range = backend::DepthRange::clamp;
+            check_same(rig, draws, config, passes);
+        }
+    }
+    CHECK(device->live().total() == 0);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("areas of an atlas, strips and what is kept leave all other pixels alone", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    Soup const soup = make_soup(11, 120, 0.8F);
+    backend::Draw const draw = soup.draw();
+    for (vulkan::Features const& features : {device->features(), vulkan::Features{}}) {
+        PassRig rig(*device, device->gpu_with(features));
+        for (backend::DepthFormat format : {backend::DepthFormat::f32, backend::DepthFormat::unorm16}) {
+            backend::TargetConfig const config{.size_px = {160, 120}, .layers = 2, .depth = format};
+            Passes passes(3);
+            auto const views = views_of_layers({80, 60});
+            for (std::size_t i = 0; i < 5; ++i) {
+                passes[0].push_back(views[i]);
+                passes[0][i].layer = i == 4 ? 1 : 0;
+                passes[0][i].viewport = backend::Rect{static_cast<int>(i % 2) * 80, static_cast<int>(i / 2 % 2) * 60, 80, 60};
+            }
+            passes[1] = {views[3]};  // A strip of one tile anew, by another view.
+            passes[1][0].layer = 0;
+            passes[1][0].viewport = backend::Rect{80, 60, 80, 60};
+            passes[1][0].scissor = backend::Rect{0, 70, 200, 11};
+            passes[2] = {views[5]};  // On top of what there is, sticking out of the target.
+            passes[2][0].layer = 1;
+            passes[2][0].viewport = backend::Rect{-40, 30, 130, 200};
+            passes[2][0].load = backend::Load::keep;
+            check_same(rig, {&draw, 1}, config, passes);
+        }
+    }
+    CHECK(device->live().total() == 0);
+    CHECK(device->take_messages() == "");
+}
