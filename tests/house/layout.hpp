@@ -75,7 +75,7 @@ inline std::vector<Finding> check_layout(Tree const& tree, std::set<std::string>
     for (auto const& [path, text] : tree) {
         auto const steps = split(path, '/');
         if (path.ends_with(".hpp") && steps[0] == "modules") check_header_start(path, text, findings);
-        if (path.ends_with(".glsl") && steps[0] == "modules") check_formula_start(path, text, findings);
+        if (path.ends_with(".glsl") && path.find("/include/") != std::string::npos) check_formula_start(path, text, findings);
         if (path.ends_with(".cpp") && steps[0] == "examples" && steps.size() == 2) check_example(path, text, findings);
     }
     return findings;
