@@ -65,7 +65,8 @@ core::Failure<Exit> exit_for(core::Failure<pipeline::Error> const& why) {
         case pipeline::Error::bad_light:
         case pipeline::Error::bad_view: return usage_error(why.message);
         case pipeline::Error::empty_scene:
-        case pipeline::Error::too_large: break;
+        case pipeline::Error::too_large:
+        case pipeline::Error::backend_failed: break;
     }
     return failure(why.message);
 }

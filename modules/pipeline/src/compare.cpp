@@ -40,10 +40,13 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     report.params = request.params.values;
     Workspace own;
     Workspace& workspace = request.workspace != nullptr ? *request.workspace : own;
+    backend::Backend& device = request.device != nullptr ? *request.device : workspace.own_backend(executor);
+    report.backend = std::string(device.name());
+    TechniqueRun const on{frame, request.params, workspace, device, executor};
     std::vector<std::vector<StageTime>> repeats;
     TechniqueOutput output;
     for (int i = 0; i < std::max(config.repeats, 1); ++i) {
-        auto result = request.technique->run(frame, request.params, workspace, executor);
+        auto result = request.technique->run(on);
         if (!result) return std::move(result).failure();
         output = std::move(result).value();
         repeats.push_back(output.stages);
@@ -56,7 +59,7 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     report.error.samples = frame.samples.size();
     if (!report.measured) return report;
     if (request.technique->examine != nullptr)
-        request.technique->examine(frame, request.params, workspace, executor, output);
+        if (auto ok = request.technique->examine(on, output); !ok) return std::move(ok).failure();
     report.error = measure(frame, output, executor);
     report.error.radiance_error = radiance_error(frame, shading, output.visibility);
     if (config.images) report.overlay = error_overlay(frame, shading, output.visibility);

@@ -180,12 +180,8 @@ std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state,
     std::size_t const n = state.samples.size();
     std::vector<std::uint64_t> shadow(trace::visibility_words(n));
     with_opacity(frame, state, [&](auto const& opacity) {
-        trace::VisibilityConfig<std::remove_cvref_t<decltype(opacity)>> config;
-        config.light = state.light;
-        config.own_plane = trace::OwnPlane{triangles_of(frame, state), state.eye};
-        config.opacity = opacity;
         (void)trace::visibility(bvh, std::span<sample::ViewSample const>(state.samples),
-                                std::span<std::uint64_t>(shadow), executor, config);
+                                std::span<std::uint64_t>(shadow), executor, config_of(frame, state, opacity));
     });
     std::vector<std::uint8_t> lit(n);
     for (std::size_t i = 0; i < n; ++i) lit[i] = !trace::is_in_shadow(shadow, i) && frame.reached[i] != 0 ? 1 : 0;

@@ -45,6 +45,12 @@ auto with_opacity(Frame const& frame, FrameState const& state, Use&& use) {
     return use(trace::AlphaTest{frame.geometry->triangle_material, s.materials, s.textures, s.corner_uv});
 }
 
+/// What the truth is asked, but for the samples.
+template <class F>
+[[nodiscard]] trace::VisibilityConfig<F> config_of(Frame const& frame, FrameState const& state, F const& opacity) {
+    return {state.light, trace::OwnPlane{triangles_of(frame, state), state.eye}, opacity};
+}
+
 /// 1 for each sample that the light reaches in `bvh`, 0 for the others.
 [[nodiscard]] std::vector<std::uint8_t> trace_lit(Frame const& frame, FrameState const& state, trace::Bvh const& bvh,
                                                   core::ExecutorRef executor);

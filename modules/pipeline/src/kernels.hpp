@@ -22,46 +22,20 @@ static_assert(sizeof(sample::ViewSample) == 16 && offsetof(sample::ViewSample, p
 
 // --- shadow_lookup: how much light arrives at each sample, as the shadow maps see it --------------------------------
 //
-// buffers   0 samples   1 float normals[n][3]   2 reached   3 ShadowMapStd maps[]   4 out float visibility[n]
+// buffers   0 samples   1 float normals[n][3]   2 reached   3 shadow::MapView maps[]   4 out float visibility[n]
 //           5 out float bias_m[n]
 // targets   0 the maps' depths: layer i is maps[i]
 // A sample that is not reached gets visibility 0 and bias 0. With six maps, the one that the sample's direction from
 // the light picks: projection::face_of.
 
-/// shadow::MapView.
-struct ShadowMapStd {
-    float clip_from_relative[16];  ///< Column by column: a mat4.
-    float eye[3];
-    float near_m;
-    float right[3];
-    float depth_scale;
-    float up[3];
-    float depth_offset;
-    float back[3];
-    float half_code;
-    float texel[2];
-    float size_px[2];
-    std::uint32_t perspective;  ///< 0 or 1, as every flag here.
-    std::uint32_t reversed;
-    std::uint32_t unused[2];
-};
-static_assert(sizeof(ShadowMapStd) == 160);
-
 struct ShadowLookupStd {
-    std::uint32_t count;  ///< Samples.
-    std::uint32_t maps;   ///< 1, or 6: the faces of a cube.
-    std::int32_t taps;
-    std::uint32_t unorm16;  ///< The maps hold codes; a texel read as c / 65535 must become float(c) * (1 / 65535).
+    std::uint32_t count;    ///< Samples.
+    std::uint32_t maps;     ///< 1, or 6: the faces of a cube.
+    std::uint32_t unorm16;  ///< The maps hold codes.
     float light[3];         ///< Work space; of six maps.
-    std::uint32_t automatic;
-    std::uint32_t receiver_plane;
-    std::uint32_t in_texels;  ///< shadow::BiasUnit
-    float constant;
-    float slope;
-    float normal_offset;
-    float max_tan;
+    formula::GnShadowConfig config;
 };
-static_assert(sizeof(ShadowLookupStd) == 56);
+static_assert(sizeof(ShadowLookupStd) == 56 && offsetof(ShadowLookupStd, config) == 24);
 
 extern backend::Kernel const shadow_lookup_kernel;
 

@@ -1,11 +1,11 @@
 // The technique `shadow-map`: one map for a sun or a spot, six for a point light.
 
-#include "detail.hpp"
+#include "shadow_map.hpp"
 
-#include <gnomon/pipeline/measures.hpp>
+#include "kernels.hpp"
+
 #include <gnomon/projection.hpp>
-#include <gnomon/raster/layers.hpp>
-#include <gnomon/shadow.hpp>
+#include <gnomon/raster/target.hpp>
 
 #include <algorithm>
 #include <array>
@@ -56,32 +56,6 @@ constexpr std::array<ParamInfo, 11> params_info{{
 /// What all maps of one run may take, so that a wish for six maps of 16384 texels is an answer and not a crash.
 constexpr std::uint64_t max_map_bytes = std::uint64_t{3} << 30U;
 
-struct Options {
-    std::int32_t resolution = 0;
-    shadow::Format format = shadow::Format::f32;
-    math::Depth depth = math::Depth::reversed;
-    raster::Cull cull = raster::Cull::none;
-    shadow::LookupConfig lookup;
-};
-
-Options read_options(Params const& params) {
-    Options o;
-    o.resolution = params.integer("resolution");
-    o.format = params.word("format") == "unorm16" ? shadow::Format::unorm16 : shadow::Format::f32;
-    o.depth = params.word("depth") == "forward" ? math::Depth::forward : math::Depth::reversed;
-    o.cull = params.word("cull") == "none"   ? raster::Cull::none
-             : params.word("cull") == "back" ? raster::Cull::back
-                                             : raster::Cull::front;
-    o.lookup.taps = params.integer("pcf");
-    o.lookup.bias.automatic = params.word("bias") == "auto";
-    o.lookup.bias.receiver_plane = params.word("plane") == "on";
-    o.lookup.bias.constant = static_cast<float>(params.number("constant"));
-    o.lookup.bias.slope = static_cast<float>(params.number("slope"));
-    o.lookup.bias.normal_offset = static_cast<float>(params.number("normal"));
-    o.lookup.bias.unit = params.word("unit") == "m" ? shadow::BiasUnit::metres : shadow::BiasUnit::texels;
-    return o;
-}
-
 /// The smallest distance from the light to the box of a triangle: nothing casts nearer than that.
 double nearest_caster(Frame const& frame, core::ExecutorRef executor) {
     scene::Geometry const& g = *frame.geometry;
@@ -105,7 +79,8 @@ double nearest_caster(Frame const& frame, core::ExecutorRef executor) {
 core::Failure<Error> bad_light(core::Failure<projection::Error> const& why) { return {Error::bad_light, why.message}; }
 
 /// The views that the maps are drawn with.
-Result<std::vector<math::View>> light_views(Frame const& frame, Options const& options, core::ExecutorRef executor) {
+Result<std::vector<math::View>> light_views(Frame const& frame, ShadowMapOptions const& options,
+                                            core::ExecutorRef executor) {
     double const margin = 0.5 * options.lookup.taps + 1.0;
     math::dvec3 const origin = frame.geometry->origin_m;
     if (frame.light.kind == LightKind::directional) {
@@ -148,200 +123,135 @@ Result<std::vector<math::View>> light_views(Frame const& frame, Options const& o
     return std::vector<math::View>(views->begin(), views->end());
 }
 
-raster::PassConfig pass_config(math::Depth depth) {
-    raster::PassConfig config;
-    config.depth = depth;
-    config.range = raster::DepthRange::clamp;
-    return config;
+/// The list of this geometry and side, staged again only where it changed.
+void fit_draws(Verbs& verbs, Frame const& frame, ShadowMaps& shadow, raster::Cull cull) {
+    if (shadow.drawn == frame.state->surfaces && shadow.cull == cull) return;
+    shadow.drawn = nullptr;
+    shadow.list = {};
+    shadow.draws = make_draws(*frame.scene, *frame.geometry, cull);
+    shadow.cull = cull;
+    shadow.list = Held(verbs.device(), verbs(verbs.device().keep(shadow.draws.draws)));
+    if (verbs.good()) shadow.drawn = frame.state->surfaces;
 }
 
-std::size_t face_texels(Options const& options) {
-    return static_cast<std::size_t>(options.resolution) * static_cast<std::size_t>(options.resolution);
-}
-
-}  // namespace
-
-/// What one run leaves for the next, and for `examine_shadow_map`.
-struct Workspace::State {
-    raster::Workspace raster;
-    std::vector<float> f32;
-    std::vector<std::uint16_t> unorm16;
-    std::vector<math::View> views;
-    std::vector<shadow::MapView> maps;
-    std::vector<raster::Layer> layers;  ///< One for each map.
-    DrawList draws;
-    scene::Geometry const* drawn = nullptr;  ///< What `draws` were made of.
-    raster::Cull cull = raster::Cull::none;
-};
-
-Workspace::Workspace() : state_(std::make_unique<State>()) {}
-Workspace::~Workspace() = default;
-Workspace::Workspace(Workspace&&) noexcept = default;
-Workspace& Workspace::operator=(Workspace&&) noexcept = default;
-
-namespace {
-
-raster::DepthTarget target_of(Workspace::State& state, Options const& options, std::size_t face) {
-    std::int32_t const side = options.resolution;
-    std::size_t const offset = face * face_texels(options);
-    if (options.format == shadow::Format::unorm16) return raster::make_image(state.unorm16.data() + offset, side, side);
-    return raster::make_image(state.f32.data() + offset, side, side);
-}
-
-/// The map that sees a sample: the only one, or the face in its direction.
-std::size_t map_of(Frame const& frame, Workspace::State const& state, std::size_t sample) noexcept {
-    if (state.maps.size() == 1) return 0;
-    return static_cast<std::size_t>(projection::face_of(frame.samples.position[sample] - frame.light_position));
-}
-
-/// Calls `use` with the texels of map `face`, in the format they have.
-template <class Use>
-void with_texels(Workspace::State const& state, Options const& options, std::size_t face, Use&& use) {
-    std::size_t const offset = face * face_texels(options);
-    if (options.format == shadow::Format::unorm16)
-        use(shadow::Texels<std::uint16_t>{state.unorm16.data() + offset, options.resolution});
-    else
-        use(shadow::Texels<float>{state.f32.data() + offset, options.resolution});
-}
-
-Result<core::Done> allocate(Workspace::State& state, Options const& options, std::size_t faces) {
-    bool const narrow = options.format == shadow::Format::unorm16;
-    std::size_t const texels = face_texels(options) * faces;
-    std::uint64_t const bytes = std::uint64_t{texels} * (narrow ? 2U : 4U);
+Result<core::Done> fit_target(Verbs& verbs, ShadowMaps& shadow, ShadowMapOptions const& options) {
+    std::size_t const maps = shadow.views.size();
+    std::uint64_t const bytes = map_texels(options) * maps * (is_narrow(options) ? 2U : 4U);
     if (bytes > max_map_bytes)
         return core::Failure{Error::too_large, "shadow-map.resolution " + std::to_string(options.resolution) +
-                                                   " needs " + std::to_string(faces) + " maps of together " +
+                                                   " needs " + std::to_string(maps) + " maps of together " +
                                                    std::to_string(bytes >> 20U) + " MiB; the limit is " +
                                                    std::to_string(max_map_bytes >> 20U) +
                                                    " MiB: lower the resolution or use format unorm16"};
-    if (narrow && state.unorm16.size() < texels) state.unorm16.resize(texels);
-    if (!narrow && state.f32.size() < texels) state.f32.resize(texels);
+    backend::TargetConfig const wanted{
+        .size_px = math::ivec2(options.resolution, options.resolution),
+        .layers = static_cast<std::uint32_t>(maps),
+        .depth = is_narrow(options) ? backend::DepthFormat::unorm16 : backend::DepthFormat::f32};
+    bool const fits = !shadow.target.get().is_none() && shadow.config.size_px == wanted.size_px &&
+                      shadow.config.layers == wanted.layers && shadow.config.depth == wanted.depth;
+    if (fits) return core::Done{};
+    shadow.target = {};
+    shadow.target = Held(verbs.device(), verbs(verbs.device().make_target(wanted)));
+    shadow.config = wanted;
     return core::Done{};
 }
 
-void look_up_all(Frame const& frame, Workspace::State const& state, Options const& options, core::ExecutorRef executor,
-                 TechniqueOutput& output) {
-    Samples const& samples = frame.samples;
-    executor.parallel_for(samples.size(), sample_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (frame.reached[i] == 0) continue;
-            std::size_t const face = map_of(frame, state, i);
-            with_texels(state, options, face, [&](auto texels) {
-                shadow::Lookup const seen =
-                    shadow::look_up(state.maps[face], texels, samples.position[i], samples.normal[i], options.lookup);
-                output.visibility[i] = seen.visibility;
-                output.bias_m[i] = seen.bias_m;
-            });
-        }
-    });
-}
-
-bool share_a_corner(scene::Geometry const& g, std::uint32_t a, std::uint32_t b) noexcept {
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            if (g.positions[g.indices[std::size_t{a} * 3 + i]] == g.positions[g.indices[std::size_t{b} * 3 + j]])
-                return true;
-    return false;
-}
-
-/// All maps are drawn in one pass: six small faces one by one would leave threads idle.
-void list_layers(Frame const& frame, Workspace::State& state, Options const& options) {
-    state.layers.clear();
-    for (std::size_t face = 0; face < state.views.size(); ++face)
-        state.layers.push_back({.target = target_of(state, options, face),
-                                .origin = math::to_float(state.views[face].eye_m - frame.geometry->origin_m),
-                                .clip_from_relative = math::clip_from_relative(state.views[face]),
-                                .config = pass_config(options.depth)});
-}
-
-Result<TechniqueOutput> run_shadow_map(Frame const& frame, Params const& params, Workspace& workspace,
-                                       core::ExecutorRef executor) {
-    Options const options = read_options(params);
-    Workspace::State& state = workspace.state();
-    if (state.drawn != frame.geometry || state.cull != options.cull) {
-        state.draws = make_draws(*frame.scene, *frame.geometry, options.cull);
-        state.drawn = frame.geometry;
-        state.cull = options.cull;
-    }
-    TechniqueOutput output;
-    output.visibility.assign(frame.samples.size(), 0.0F);
-    output.bias_m.assign(frame.samples.size(), 0.0F);
-
-    Stopwatch watch;
-    auto views = light_views(frame, options, executor);
+/// The views of the light, as the pass and the lookup need them.
+Result<core::Done> fit_views(TechniqueRun const& on, ShadowMaps& shadow, ShadowMapOptions const& options) {
+    auto views = light_views(on.frame, options, on.executor);
     if (!views) return std::move(views).failure();
-    state.views = std::move(views).value();
-    state.maps.clear();
-    for (math::View const& view : state.views)
-        state.maps.push_back(shadow::make_map_view(view, frame.geometry->origin_m, options.format));
-    double const fit_ms = watch.lap_ms();
-    if (auto ok = allocate(state, options, state.views.size()); !ok) return std::move(ok).failure();
+    shadow.views = std::move(views).value();
+    shadow.maps.clear();
+    shadow.layers.clear();
+    for (math::View const& view : shadow.views) {
+        shadow.maps.push_back(shadow::make_map_view(view, on.frame.geometry->origin_m, options.format));
+        shadow.layers.push_back(layer_of(on.frame, shadow, options, shadow.maps.size() - 1));
+        shadow.layers.back().layer = static_cast<std::uint32_t>(shadow.maps.size() - 1);
+    }
+    return core::Done{};
+}
 
-    (void)watch.lap_ms();
-    list_layers(frame, state, options);
-    std::uint64_t triangles = 0;
-    for (raster::PassStats const& face : raster::layered_pass(state.draws.draws, state.layers, state.raster, executor))
-        triangles += face.triangles;
-    double const draw_ms = watch.lap_ms();
-    look_up_all(frame, state, options, executor, output);
-    output.stages = {{"fit", fit_ms}, {"depth_pass", draw_ms}, {"lookup", watch.lap_ms()}};
-    std::uint64_t const texels = std::uint64_t{face_texels(options)} * state.views.size();
-    output.counts = {{"triangles_drawn", triangles},
-                     {"draw_calls", state.draws.draws.size() * state.views.size()},
-                     {"lighting_computations", frame.samples.size()},
+void look_up_all(Verbs& verbs, TechniqueRun const& on, ShadowMapOptions const& options) {
+    Workspace::State& state = on.workspace.state();
+    ShadowMaps& shadow = state.shadow;
+    shadow.map_views.fill<shadow::MapView>(verbs, shadow.maps);
+    std::array const buffers{state.samples.samples.get(), state.samples.normals.get(), state.samples.reached.get(),
+                             shadow.map_views.get(),      shadow.visibility.get(),     shadow.bias_m.get()};
+    std::array const targets{backend::TargetBinding{shadow.target.get(), backend::Plane::depth}};
+    ShadowLookupStd const constants = to_std(on.frame, options, shadow.maps.size());
+    verbs(
+        on.device.run(shadow_lookup_kernel, {on.frame.samples.size(), buffers, targets, backend::bytes_of(constants)}));
+}
+
+/// Draws the maps and looks every sample up; what is staged only once is staged before anything is timed.
+Result<TechniqueOutput> run_shadow_map(TechniqueRun const& on) {
+    ShadowMapOptions const options = read_shadow_map_options(on.params);
+    std::size_t const n = on.frame.samples.size();
+    Workspace::State& state = on.workspace.state();
+    state.move_to(on.device);
+    ShadowMaps& shadow = state.shadow;
+    Verbs verbs(on.device);
+    fit_draws(verbs, on.frame, shadow, options.cull);
+    state.samples.fit(verbs, on.frame);
+    shadow.visibility.fit(verbs, n * sizeof(float));
+    shadow.bias_m.fit(verbs, n * sizeof(float));
+    Stopwatch watch;
+    if (auto ok = fit_views(on, shadow, options); !ok) return std::move(ok).failure();
+    double const fit_ms = watch.lap_ms();
+    if (auto ok = fit_target(verbs, shadow, options); !ok) return std::move(ok).failure();
+
+    on.device.stage("depth_pass");
+    backend::PassCounts const drawn = verbs(on.device.draw(shadow.list.get(), shadow.target.get(), shadow.layers));
+    on.device.stage("lookup");
+    look_up_all(verbs, on, options);
+    on.device.stage("");
+    TechniqueOutput output;
+    output.visibility.resize(n);
+    output.bias_m.resize(n);
+    verbs(on.device.read(shadow.visibility.get(), 0, std::as_writable_bytes(std::span(output.visibility))));
+    verbs(on.device.read(shadow.bias_m.get(), 0, std::as_writable_bytes(std::span(output.bias_m))));
+    auto const stages = verbs(on.device.finish());
+    if (!verbs.good()) return verbs.failure();
+    output.stages = {{"fit", fit_ms}};
+    output.stages.insert(output.stages.end(), stages.begin(), stages.end());
+    std::uint64_t const texels = std::uint64_t{map_texels(options)} * shadow.views.size();
+    output.counts = {{"triangles_drawn", drawn.triangles},
+                     {"draw_calls", drawn.draw_calls},
+                     {"lighting_computations", n},
                      {"texels_allocated", texels},
                      {"texels_rewritten", texels}};
-    output.bytes = {{"shadow_maps", texels * (options.format == shadow::Format::unorm16 ? 2U : 4U)}};
+    output.bytes = {{"shadow_maps", texels * (is_narrow(options) ? 2U : 4U)}};
     return output;
 }
 
-/// Draws the maps again with triangle ids, and asks each shadowed sample whose triangles shadow it.
-void examine_shadow_map(Frame const& frame, Params const& params, Workspace& workspace, core::ExecutorRef executor,
-                        TechniqueOutput& output) {
-    Options const options = read_options(params);
-    Workspace::State& state = workspace.state();
-    std::size_t const n = frame.samples.size();
-    output.own_hit.assign(n, 0);
-    std::vector<std::uint32_t> ids(face_texels(options));
-    std::vector<float> depth(face_texels(options));
-    for (std::size_t face = 0; face < state.views.size(); ++face) {
-        state.draws.look_from(state.views[face], frame.geometry->origin_m);
-        raster::camera_pass(state.draws.draws,
-                            {raster::make_image(depth.data(), options.resolution, options.resolution),
-                             raster::make_image(ids.data(), options.resolution, options.resolution)},
-                            pass_config(options.depth), state.raster, executor);
-        executor.parallel_for(n, sample_grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (verdict_of(output.visibility[i], frame.lit[i]) != Verdict::false_shadow) continue;
-                if (map_of(frame, state, i) != face) continue;
-                shadow::Prepared const ready = shadow::prepare(state.maps[face], frame.samples.position[i],
-                                                               frame.samples.normal[i], options.lookup);
-                if (ready.faces_away) {
-                    output.own_hit[i] = 1;  // its own plane, judged in float
-                    continue;
-                }
-                float own = 0.0F;
-                float all = 0.0F;
-                auto const tally = [&](std::int32_t x, std::int32_t y, float weight, bool blocked) {
-                    if (!blocked) return;
-                    std::uint32_t const id =
-                        ids[static_cast<std::size_t>(y) * static_cast<std::size_t>(options.resolution) +
-                            static_cast<std::size_t>(x)];
-                    std::uint32_t const self = frame.samples.triangle[i];
-                    bool const mine = id != raster::no_triangle && share_a_corner(*frame.geometry, id, self);
-                    all += weight;
-                    own += mine ? weight : 0.0F;
-                };
-                with_texels(state, options, face, [&](auto texels) {
-                    shadow::for_each_tap(state.maps[face], texels, ready, options.lookup.taps, tally);
-                });
-                output.own_hit[i] = all > 0.0F && own >= 0.5F * all ? 1 : 0;
-            }
-        });
-    }
+}  // namespace
+
+ShadowMapOptions read_shadow_map_options(Params const& params) {
+    ShadowMapOptions o;
+    o.resolution = params.integer("resolution");
+    o.format = params.word("format") == "unorm16" ? shadow::Format::unorm16 : shadow::Format::f32;
+    o.depth = params.word("depth") == "forward" ? math::Depth::forward : math::Depth::reversed;
+    o.cull = params.word("cull") == "none"   ? raster::Cull::none
+             : params.word("cull") == "back" ? raster::Cull::back
+                                             : raster::Cull::front;
+    o.lookup.taps = params.integer("pcf");
+    o.lookup.bias.automatic = params.word("bias") == "auto";
+    o.lookup.bias.receiver_plane = params.word("plane") == "on";
+    o.lookup.bias.constant = static_cast<float>(params.number("constant"));
+    o.lookup.bias.slope = static_cast<float>(params.number("slope"));
+    o.lookup.bias.normal_offset = static_cast<float>(params.number("normal"));
+    o.lookup.bias.unit = params.word("unit") == "m" ? shadow::BiasUnit::metres : shadow::BiasUnit::texels;
+    return o;
 }
 
-}  // namespace
+backend::PassLayer layer_of(Frame const& frame, ShadowMaps const& shadow, ShadowMapOptions const& options,
+                            std::size_t map) {
+    math::View const& view = shadow.views[map];
+    return {.origin = math::to_float(view.eye_m - frame.geometry->origin_m),
+            .clip_from_relative = math::clip_from_relative(view),
+            .depth = options.depth,
+            .range = backend::DepthRange::clamp};
+}
 
 Technique shadow_map_technique() noexcept {
     return {"shadow-map", "a depth map from the light, filtered by percentage-closer comparison", params_info,

@@ -16,6 +16,7 @@ enum class Error : std::uint8_t {
     bad_view,           ///< The view has no pixels or does not see with finite numbers.
     empty_scene,        ///< The geometry has no triangle that can be drawn.
     too_large,          ///< An image or map would not fit in the limits: the message says what it needs.
+    backend_failed,     ///< The backend refused or failed: the message has its name, its error and its own sentence.
 };
 
 template <class T>

@@ -4,6 +4,7 @@
 //
 // A view sample is (triangle, float3 position) of a pixel whose centre a triangle covers. [design section 9]
 
+#include <gnomon/backend/verbs.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/math/bounds.hpp>
 #include <gnomon/math/vec.hpp>
@@ -25,10 +26,7 @@ namespace gnomon::pipeline {
 inline constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
 
 /// One named duration. Names are the program's literals.
-struct StageTime {
-    std::string_view name;
-    double ms = 0.0;
-};
+using backend::StageTime;
 
 /// The samples of a frame, one entry per covered pixel in row order; every list has `size()` entries.
 struct Samples {
@@ -56,7 +54,8 @@ struct Frame {
     math::Aabb bounds;                ///< Of every finite vertex, work space.
     Samples samples;
     std::vector<std::uint32_t> sample_of_pixel;  ///< `no_sample` for the background.
-    std::vector<std::uint8_t> lit;  ///< The truth: 1 lit, 0 in shadow; one per sample. Empty where it was not asked for.
+    std::vector<std::uint8_t>
+        lit;  ///< The truth: 1 lit, 0 in shadow; one per sample. Empty where it was not asked for.
     std::vector<std::uint8_t> reached;  ///< 0: beyond the light's range or cone, so not lit whatever stands between.
     std::uint64_t bad_triangles = 0;    ///< Left out: a vertex is not finite, or an index out of range.
     std::uint64_t triangles_drawn = 0;  ///< Of the camera pass.
@@ -83,8 +82,6 @@ struct Shot {
 [[nodiscard]] Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geometry,
                                        math::View const& view, Light const& light, core::ExecutorRef executor);
 
-[[nodiscard]] inline bool has_truth(Frame const& frame) noexcept {
-    return frame.lit.size() == frame.samples.size();
-}
+[[nodiscard]] inline bool has_truth(Frame const& frame) noexcept { return frame.lit.size() == frame.samples.size(); }
 
 }  // namespace gnomon::pipeline

@@ -25,11 +25,11 @@ struct Milliseconds {
 /// One run of `results.json`: the fields that the pipeline knows. [design section 10]
 struct RunReport {
     std::string technique;
-    std::string backend = "cpu";
+    std::string backend;  ///< Its name.
     std::vector<Params::Value> params;
     Milliseconds ms;
     std::vector<StageTime> stages;  ///< Median over the repeats, stage by stage.
-    bool measured = true;  ///< Off: the frame has no truth, and of `error` only `samples` says anything.
+    bool measured = true;           ///< Off: the frame has no truth, and of `error` only `samples` says anything.
     Measures error;
     std::vector<Count> counts;
     std::vector<Count> bytes;
@@ -40,7 +40,8 @@ struct RunReport {
 struct RunRequest {
     Technique const* technique = nullptr;
     Params params;
-    Workspace* workspace = nullptr;  ///< Kept by the caller from frame to frame; null: one for the call.
+    Workspace* workspace = nullptr;      ///< Kept by the caller from frame to frame; null: one for the call.
+    backend::Backend* device = nullptr;  ///< What it runs on, which outlives the workspace; null: the CPU.
 };
 
 /// Called between runs, from the calling thread.

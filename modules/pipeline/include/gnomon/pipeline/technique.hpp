@@ -1,6 +1,7 @@
 #pragma once
 // Techniques as data: a name, parameters that describe themselves, and a function from a frame to visibilities.
 
+#include <gnomon/backend/verbs.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/pipeline/error.hpp>
 #include <gnomon/pipeline/frame.hpp>
@@ -71,14 +72,22 @@ struct TechniqueOutput {
     std::vector<Count> bytes;
 };
 
-/// Maps and scratch that a technique works in. Kept between runs it stops growing: after the first nothing is
-/// allocated.
+/// What a technique leaves on a backend for its next run: what was staged of a frame and its geometry, maps, buffers.
+///
+/// What did not change since the last run is not staged again. Its contents belong to the backend that ran last: a run
+/// on another releases them and begins anew.
+/// expects: that backend outlives the workspace, or the workspace's `clear`.
 class Workspace {
   public:
     Workspace();
     ~Workspace();
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
+
+    /// Releases all that a backend holds for it.
+    void clear() noexcept;
+    /// A CPU backend of its own, for whoever brings none; runs on `executor` from here on.
+    [[nodiscard]] backend::Backend& own_backend(core::ExecutorRef executor);
 
     struct State;
     [[nodiscard]] State& state() noexcept { return *state_; }
@@ -87,16 +96,23 @@ class Workspace {
     std::unique_ptr<State> state_;
 };
 
+/// All that a technique is given.
+struct TechniqueRun {
+    Frame const& frame;
+    Params const& params;
+    Workspace& workspace;
+    backend::Backend& device;    ///< Draws, and runs the kernels.
+    core::ExecutorRef executor;  ///< For what the host does: fitting, building, measuring.
+};
+
 /// A technique. Plain data: the table is the only registry.
 struct Technique {
     std::string_view name;
     std::string_view summary;  ///< One line.
     std::span<ParamInfo const> params;
-    Result<TechniqueOutput> (*run)(Frame const& frame, Params const& params, Workspace& workspace,
-                                   core::ExecutorRef executor);
+    Result<TechniqueOutput> (*run)(TechniqueRun const& on);
     /// Un-timed extra for the measures, straight after `run`: fills `own_hit`. Null where there is nothing to add.
-    void (*examine)(Frame const& frame, Params const& params, Workspace& workspace, core::ExecutorRef executor,
-                    TechniqueOutput& output);
+    Result<core::Done> (*examine)(TechniqueRun const& on, TechniqueOutput& output);
 };
 
 /// Every technique there is.

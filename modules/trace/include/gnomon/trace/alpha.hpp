@@ -34,6 +34,21 @@ struct AlphaMaterial {
     return static_cast<double>(material.factor) * sampled >= static_cast<double>(material.cutoff);
 }
 
+/// The texture coordinates of a crossing: those of its triangle's corners, mixed in double. (0, 0) where there are none.
+///
+/// expects: `uvs` has three per triangle, in corner order.
+[[nodiscard]] inline math::dvec2 uv_at(Crossing const& crossing, std::span<math::vec2 const> uvs) noexcept {
+    std::size_t const id = crossing.triangle.index();
+    math::dvec2 uv(0.0, 0.0);
+    if (3 * id + 2 >= uvs.size()) return uv;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        double const weight = crossing.weights[static_cast<int>(corner)];
+        uv.x += weight * static_cast<double>(uvs[3 * id + corner].x);
+        uv.y += weight * static_cast<double>(uvs[3 * id + corner].y);
+    }
+    return uv;
+}
+
 /// The opacity of a scene's triangles: an `Opacity` for the queries.
 ///
 /// expects: `uvs` has three per triangle, in corner order, for every triangle whose material is masked and textured.
@@ -47,15 +62,7 @@ struct AlphaTest {
         std::size_t const id = crossing.triangle.index();
         if (id >= material_of.size() || material_of[id] >= materials.size()) return true;
         AlphaMaterial const& material = materials[material_of[id]];
-        if (!material.is_masked) return true;
-        math::dvec2 uv(0.0, 0.0);
-        if (3 * id + 2 < uvs.size())
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                double const weight = crossing.weights[static_cast<int>(corner)];
-                uv.x += weight * static_cast<double>(uvs[3 * id + corner].x);
-                uv.y += weight * static_cast<double>(uvs[3 * id + corner].y);
-            }
-        return is_solid(material, textures, uv);
+        return !material.is_masked || is_solid(material, textures, uv_at(crossing, uvs));
     }
 };
 

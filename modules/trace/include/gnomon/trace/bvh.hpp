@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace gnomon::trace {
@@ -69,6 +70,16 @@ struct Bvh {
     std::vector<Block> blocks;
     std::size_t triangles = 0;  ///< In the hierarchy.
     LeftOut left_out;
+};
+
+/// What a query walks: a `Bvh`, or the same nodes and blocks in somebody's buffers.
+struct BvhView {
+    std::span<Node const> nodes;
+    std::span<Block const> blocks;
+
+    BvhView() = default;
+    BvhView(std::span<Node const> n, std::span<Block const> b) noexcept : nodes(n), blocks(b) {}
+    BvhView(Bvh const& bvh) noexcept : nodes(bvh.nodes), blocks(bvh.blocks) {}  // NOLINT: converts as spans do
 };
 
 }  // namespace gnomon::trace

@@ -88,7 +88,7 @@ struct Search {
 
 /// Calls `visit(block, lane)` for each triangle that blocks the segment, but for the own one; stops when it returns true.
 template <class Visit>
-void for_each_blocker(Bvh const& bvh, Search const& search, Counts& counts, Visit&& visit) {
+void for_each_blocker(BvhView bvh, Search const& search, Counts& counts, Visit&& visit) {
     Segment const& s = search.segment;
     if (bvh.nodes.empty() || !is_valid(s)) return;
     struct Entry {
@@ -149,7 +149,7 @@ void for_each_blocker(Bvh const& bvh, Search const& search, Counts& counts, Visi
 /// returns: false for NaN, infinities and a zero direction in `s` (see `is_valid`), and for an empty hierarchy.
 /// cost:    O(visited nodes). Never allocates, never fails.
 template <Opacity F = Solid>
-[[nodiscard]] bool is_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own, Counts& counts,
+[[nodiscard]] bool is_blocked(BvhView bvh, Segment const& s, core::TriangleId own, Counts& counts,
                               F const& opacity = {}) {
     bool found = false;
     detail::for_each_blocker(bvh, {s, own}, counts, [&](Block const& block, std::size_t lane) {
@@ -164,7 +164,7 @@ template <Opacity F = Solid>
 }
 
 template <Opacity F = Solid>
-[[nodiscard]] bool is_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own = {}, F const& opacity = {}) {
+[[nodiscard]] bool is_blocked(BvhView bvh, Segment const& s, core::TriangleId own = {}, F const& opacity = {}) {
     Counts counts;
     return is_blocked(bvh, s, own, counts, opacity);
 }
@@ -174,7 +174,7 @@ template <Opacity F = Solid>
 /// returns: the same for any shape of the hierarchy: t is clamped to the triangle's own box, computed as the nodes'
 ///          boxes are, and rounding is monotone, so a subtree that is passed over cannot hold a smaller one.
 template <Opacity F = Solid>
-[[nodiscard]] std::optional<Crossing> nearest_blocker(Bvh const& bvh, Segment const& s, core::TriangleId own,
+[[nodiscard]] std::optional<Crossing> nearest_blocker(BvhView bvh, Segment const& s, core::TriangleId own,
                                                       Counts& counts, F const& opacity = {}) {
     std::optional<Crossing> nearest;
     if (!is_valid(s)) return nearest;
@@ -194,7 +194,7 @@ template <Opacity F = Solid>
 }
 
 template <Opacity F = Solid>
-[[nodiscard]] std::optional<Crossing> nearest_blocker(Bvh const& bvh, Segment const& s, core::TriangleId own = {},
+[[nodiscard]] std::optional<Crossing> nearest_blocker(BvhView bvh, Segment const& s, core::TriangleId own = {},
                                                       F const& opacity = {}) {
     Counts counts;
     return nearest_blocker(bvh, s, own, counts, opacity);

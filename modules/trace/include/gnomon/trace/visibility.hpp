@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -78,31 +77,23 @@ struct VisibilityConfig {
     F opacity{};
 };
 
-namespace detail {
-
-/// The bits of at most 64 samples.
+/// Whether one sample is in shadow of the config's light: bit i of `visibility`, which says what a bad sample is.
 template <SampleLike S, Opacity F>
-[[nodiscard]] std::uint64_t shadow_word(Bvh const& bvh, std::span<S const> samples, VisibilityConfig<F> const& config,
-                                        VisibilityStats& stats) {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        core::TriangleId const id = samples[i].triangle;
-        if (id.is_none()) continue;
-        ++stats.samples;
-        Segment const segment{samples[i].position, config.light};
-        if (!is_valid(segment)) {
-            ++stats.invalid;
-            continue;
-        }
-        bool const away = config.own_plane && faces_away(*config.own_plane, id, config.light);
-        stats.facing_away += away ? 1U : 0U;
-        if (away || is_blocked(bvh, segment, id, stats.counts, config.opacity)) bits |= std::uint64_t{1} << i;
+[[nodiscard]] bool is_shadowed(BvhView bvh, S const& sample, VisibilityConfig<F> const& config, VisibilityStats& stats) {
+    core::TriangleId const id = sample.triangle;
+    if (id.is_none()) return false;
+    ++stats.samples;
+    Segment const segment{sample.position, config.light};
+    if (!is_valid(segment)) {
+        ++stats.invalid;
+        return false;
     }
-    stats.in_shadow += static_cast<std::uint64_t>(std::popcount(bits));
-    return bits;
+    bool const away = config.own_plane && detail::faces_away(*config.own_plane, id, config.light);
+    stats.facing_away += away ? 1U : 0U;
+    bool const shadowed = away || is_blocked(bvh, segment, id, stats.counts, config.opacity);
+    stats.in_shadow += shadowed ? 1U : 0U;
+    return shadowed;
 }
-
-}  // namespace detail
 
 /// Sets bit i of `shadow` where sample i is in shadow of the config's light; clears all others, those behind the last too.
 ///
@@ -110,7 +101,7 @@ template <SampleLike S, Opacity F>
 /// returns: sums that do not depend on the executor. A NaN or infinite sample, or light, is lit and counted invalid.
 /// cost:    one query per sample; no allocation.
 template <SampleLike S, core::Executor E, Opacity F = Solid>
-VisibilityStats visibility(Bvh const& bvh, std::span<S const> samples, std::span<std::uint64_t> shadow, E& executor,
+VisibilityStats visibility(BvhView bvh, std::span<S const> samples, std::span<std::uint64_t> shadow, E& executor,
                            VisibilityConfig<F> const& config) {
     std::size_t const words = visibility_words(samples.size());
     GNOMON_EXPECT(shadow.size() >= words);
@@ -120,8 +111,11 @@ VisibilityStats visibility(Bvh const& bvh, std::span<S const> samples, std::span
         VisibilityStats stats;
         for (std::size_t word = begin; word < end; ++word) {
             std::size_t const first = word * 64;
-            shadow[word] = detail::shadow_word(bvh, samples.subspan(first, std::min<std::size_t>(64, samples.size() - first)),
-                                               config, stats);
+            std::size_t const end_of_word = std::min(first + 64, samples.size());
+            std::uint64_t bits = 0;
+            for (std::size_t i = first; i < end_of_word; ++i)
+                if (is_shadowed(bvh, samples[i], config, stats)) bits |= std::uint64_t{1} << (i - first);
+            shadow[word] = bits;
         }
         while (busy.test_and_set(std::memory_order_acquire)) {}
         total += stats;

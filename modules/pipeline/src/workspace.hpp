@@ -1,0 +1,63 @@
+#pragma once
+// What one run leaves for the next.
+
+#include <gnomon/pipeline/technique.hpp>
+#include <gnomon/raster/cpu_backend.hpp>
+#include <gnomon/shadow/map_view.hpp>
+
+#include "detail.hpp"
+#include "staged.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// Of the technique `shadow-map`.
+struct ShadowMaps {
+    DrawList draws;
+    std::shared_ptr<Surfaces const> drawn;  ///< What `draws` were made of.
+    raster::Cull cull = raster::Cull::none;
+    Held<backend::DrawListId> list;  ///< Of `draws`, which it may point into.
+    backend::TargetConfig config;
+    Held<backend::TargetId> target;  ///< Made by `config`; a layer for each map.
+    std::vector<math::View> views;
+    std::vector<shadow::MapView> maps;
+    std::vector<backend::PassLayer> layers;
+    StagedBuffer map_views;
+    StagedBuffer visibility;
+    StagedBuffer bias_m;
+};
+
+/// Of the technique `ray`.
+struct Rays {
+    StagedSurfaces surfaces;
+    StagedBuffer nodes;
+    StagedBuffer blocks;
+    StagedBuffer answers;
+    std::vector<std::uint32_t> answer;
+};
+
+struct Workspace::State {
+    std::unique_ptr<raster::CpuBackend> own;  ///< Outlives what follows.
+    backend::Backend* device = nullptr;       ///< Whose ids follow.
+    StagedSamples samples;
+    ShadowMaps shadow;
+    Rays rays;
+
+    /// From here on all is on `to`: what another backend holds is released.
+    void move_to(backend::Backend& to) {
+        if (device == &to) return;
+        clear();
+        device = &to;
+    }
+    void clear() noexcept {
+        samples = {};
+        shadow = {};
+        rays = {};
+        device = nullptr;
+    }
+};
+
+}  // namespace gnomon::pipeline
