@@ -21,6 +21,10 @@
 
 namespace gnomon::trace {
 
+// Shaders read nodes and blocks as rows of four words: lo and hi by axis, children; corners by axis, ids.
+static_assert(offsetof(Node, lo) == 0 && offsetof(Node, hi) == 48 && offsetof(Node, child) == 96 && sizeof(Node) == 128);
+static_assert(offsetof(Block, corner) == 0 && offsetof(Block, id) == 144 && sizeof(Block) == 160);
+
 /// The values are those of the formulas.
 enum class Answer : std::uint8_t {
     free = 0,
