@@ -31,6 +31,7 @@ struct DrawCommand {
     std::uint32_t first_position = 0;
     std::uint32_t first_item = 0;
     std::uint32_t instances = 1;
+    std::uint32_t draw = 0;  ///< Its place among the caller's.
     CallState state;
 };
 
@@ -76,6 +77,7 @@ struct DrawList::State {
     detail::CommandOrder sorted;    ///< By state: passes of depth alone, where order changes nothing.
     detail::CommandOrder in_order;  ///< As given: equal depths keep the first id. Empty where `sorted` is that order.
     std::vector<detail::PositionRange> positions;  ///< Of each draw.
+    std::vector<std::uint32_t> command_of;          ///< Of each draw: its place in `sorted`, or none.
     std::vector<detail::GroupTriangles> groups;
     std::vector<math::mat4> instances;  ///< On the host where the device has no doubles.
     std::uint32_t instanced = 0;        ///< Number of instances that have a matrix.

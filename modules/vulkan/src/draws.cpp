@@ -248,6 +248,9 @@ Result<DrawList> make_draw_list(PassPipelinesRef const& pipelines, std::span<bac
         return std::move(flushed).failure();
     if (auto made = detail::make_set(*state); !made) return std::move(made).failure();
     state->positions = std::move(staged->ranges);
+    state->command_of.assign(state->positions.size(), detail::none);
+    for (std::size_t i = 0; i < state->sorted.commands.size(); ++i)
+        state->command_of[state->sorted.commands[i].draw] = static_cast<std::uint32_t>(i);
     state->groups = std::move(staged->groups);
     state->triangles = staged->triangles;
     state->faults = staged->faults;

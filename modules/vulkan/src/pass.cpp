@@ -78,7 +78,8 @@ class PassRecorder {
     void record_chunk(Chunk const& chunk, bool clears) {
         std::uint32_t const offset = detail::record_views(commands_, list_, chunk);
         target_.prepare(commands_, TargetUse::draw);
-        bind(offset);
+        detail::bind_list(commands_, list_, offset);
+        gpu_.call.CmdSetDepthWriteEnable(commands_, VK_TRUE);
         bool const one_by_one = passes_.layer_mode() == LayerMode::one_by_one;
         std::uint32_t open_layer = detail::none;
         if (!one_by_one) begin(chunk, clears, 0);
@@ -117,16 +118,6 @@ class PassRecorder {
         }
     }
 
-    void bind(std::uint32_t offset) {
-        gpu_.call.CmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, passes_.layout(), 0, 1, &list_.set, 1,
-                                        &offset);
-        VkBuffer const buffer = list_.fixed.handle.get();
-        VkDeviceSize const positions = list_.bound[detail::binding_positions].offset;
-        gpu_.call.CmdBindVertexBuffers(commands_, 0, 1, &buffer, &positions);
-        gpu_.call.CmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
-        gpu_.call.CmdSetDepthWriteEnable(commands_, VK_TRUE);
-    }
-
     /// The calls of one bundle: one for each run of draws of a kind, or one for each draw where the device cannot.
     void draw(Chunk const& chunk, Bundle const& bundle) {
         bool const reversed = bundle.depth == math::Depth::reversed;
@@ -148,9 +139,7 @@ class PassRecorder {
             VkPipeline const pipeline = passes_.get(kind);
             if (pipeline != bound) gpu_.call.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
             bound = pipeline;
-            gpu_.call.CmdSetCullMode(commands_, run.state.cull == backend::Cull::none   ? VK_CULL_MODE_NONE
-                                                : run.state.cull == backend::Cull::back ? VK_CULL_MODE_BACK_BIT
-                                                                                        : VK_CULL_MODE_FRONT_BIT);
+            gpu_.call.CmdSetCullMode(commands_, detail::cull_of(run.state.cull));
             if (order.indexed.size != 0)
                 draw_indirect(order, run, bundle.count);
             else

@@ -95,7 +95,7 @@ void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& 
     depth.imageView = rendering.depth;
     depth.imageLayout = rendering.layout;
     depth.loadOp = rendering.clears ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-    depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    depth.storeOp = rendering.reads_only ? VK_ATTACHMENT_STORE_OP_NONE : VK_ATTACHMENT_STORE_OP_STORE;
     depth.clearValue.depthStencil.depth = rendering.clear_depth;
     VkRenderingAttachmentInfo triangle = depth;
     triangle.imageView = rendering.triangle;
@@ -111,6 +111,16 @@ void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& 
         info.pColorAttachments = &triangle;
     }
     gpu.call.CmdBeginRendering(commands, &info);
+}
+
+void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint32_t offset) {
+    Gpu const& gpu = *list.pipelines->gpu();
+    gpu.call.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, list.pipelines->layout(), 0, 1, &list.set, 1,
+                                   &offset);
+    VkBuffer const buffer = list.fixed.handle.get();
+    VkDeviceSize const positions = list.bound[binding_positions].offset;
+    gpu.call.CmdBindVertexBuffers(commands, 0, 1, &buffer, &positions);
+    gpu.call.CmdBindIndexBuffer(commands, buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
 void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle) {

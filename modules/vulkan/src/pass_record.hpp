@@ -21,6 +21,7 @@ struct Rendering {
     VkImageLayout layout = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
     math::ivec2 size_px{0, 0};
     std::uint32_t layers = 1;
+    bool reads_only = false;
     bool clears = false;
     float clear_depth = 0.0F;
 };
@@ -28,6 +29,15 @@ struct Rendering {
 void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& rendering);
 
 [[nodiscard]] constexpr float farthest(math::Depth depth) noexcept { return depth == math::Depth::reversed ? 0.0F : 1.0F; }
+
+/// Set, positions, indices.
+void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint32_t offset);
+
+[[nodiscard]] constexpr VkCullModeFlags cull_of(backend::Cull cull) noexcept {
+    return cull == backend::Cull::none   ? VK_CULL_MODE_NONE
+           : cull == backend::Cull::back ? VK_CULL_MODE_BACK_BIT
+                                         : VK_CULL_MODE_FRONT_BIT;
+}
 
 /// Viewport, scissor and depth compare of a bundle.
 void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle);

@@ -41,6 +41,7 @@ class Stager {
         command.first_position = first_position;
         command.first_item = static_cast<std::uint32_t>(out.items.size());
         command.instances = static_cast<std::uint32_t>(instances);
+        command.draw = static_cast<std::uint32_t>(out.ranges.size() - 1);
         command.state.cull = draw.cull;
         ItemData item{};
         item.first_triangle = draw.first_triangle;

@@ -105,11 +105,11 @@ Result<Target> make_target(GpuRef const& gpu, backend::TargetConfig const& confi
         if (!triangle) return std::move(triangle).failure();
         target.triangle_ = *std::move(triangle);
     }
-    if (gpu->features.layer_from_vertex_shader || gpu->features.geometry_shader) return target;
     auto depth_views = make_layer_views(gpu, target.depth_);
     if (!depth_views) return std::move(depth_views).failure();
     target.depth_views_ = *std::move(depth_views);
-    if (!config.triangle_ids) return target;
+    bool const draws_all_layers = gpu->features.layer_from_vertex_shader || gpu->features.geometry_shader;
+    if (!config.triangle_ids || draws_all_layers) return target;
     auto triangle_views = make_layer_views(gpu, target.triangle_);
     if (!triangle_views) return std::move(triangle_views).failure();
     target.triangle_views_ = *std::move(triangle_views);

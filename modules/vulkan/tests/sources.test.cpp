@@ -22,8 +22,11 @@ TEST_CASE("nothing in the module submits or waits, and no file is long", "[vulka
             INFO(entry.path().string());
             for (char const* call : {"QueueSubmit", "QueueWaitIdle", "DeviceWaitIdle", "WaitForFences", "WaitSemaphores",
                                      "QueueBindSparse", "CreateDevice(", "CreateInstance", "GetDeviceQueue",
-                                     "QUERY_RESULT_WAIT"})
+                                     "WaitForPresent"})
                 CHECK(text.find(call) == std::string::npos);
+            // The device may wait for its queries where it copies them; the host never does.
+            if (text.find("GetQueryPoolResults") != std::string::npos)
+                CHECK(text.find("QUERY_RESULT_WAIT") == std::string::npos);
             CHECK(std::count(text.begin(), text.end(), '\n') <= 300);
         }
     }

@@ -14,6 +14,7 @@
 #include <gnomon/vulkan/kernel.hpp>
 #include <gnomon/vulkan/pass.hpp>
 #include <gnomon/vulkan/pass_pipelines.hpp>
+#include <gnomon/vulkan/queries.hpp>
 #include <gnomon/vulkan/read_back.hpp>
 #include <gnomon/vulkan/resources.hpp>
 #include <gnomon/vulkan/ring.hpp>

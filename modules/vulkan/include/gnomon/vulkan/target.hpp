@@ -45,7 +45,7 @@ class Target {
     /// Records the barrier between what the target was used for and `use`, if there must be one.
     void prepare(VkCommandBuffer commands, TargetUse use);
 
-    /// One layer's views, for devices that draw one layer at a time; null where the device draws layers at once.
+    /// One layer, VK_IMAGE_VIEW_TYPE_2D. Ids have such views only where the device draws one layer at a time.
     [[nodiscard]] VkImageView depth_view_of(std::uint32_t layer) const noexcept;
     [[nodiscard]] VkImageView triangle_view_of(std::uint32_t layer) const noexcept;
 
