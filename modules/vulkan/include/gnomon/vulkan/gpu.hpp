@@ -43,8 +43,8 @@ struct GpuConfig {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;  ///< Of the queue that the command buffers go to; graphics and compute.
-    Features enabled;                ///< The optional features that `device` was made with.
-    MemoryHooks memory;
+    Features enabled{};               ///< The optional features that `device` was made with.
+    MemoryHooks memory{};
     VkAllocationCallbacks const* host = nullptr;
 };
 
