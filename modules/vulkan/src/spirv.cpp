@@ -13,9 +13,9 @@ constexpr std::size_t header_words = 5;
 constexpr std::uint32_t no_value = ~0U;
 
 enum Op : std::uint32_t {
-    op_name = 5, op_member_name = 6, op_execution_mode = 16, op_int = 21, op_float = 22, op_vector = 23, op_matrix = 24,
-    op_image = 25, op_array = 28, op_struct = 30, op_pointer = 32, op_constant = 43, op_variable = 59, op_decorate = 71,
-    op_member_decorate = 72, op_execution_mode_id = 331,
+    inst_name = 5, inst_member_name = 6, inst_execution_mode = 16, inst_int = 21, inst_float = 22, inst_vector = 23, inst_matrix = 24,
+    inst_image = 25, inst_array = 28, inst_struct = 30, inst_pointer = 32, inst_constant = 43, inst_variable = 59, inst_decorate = 71,
+    inst_member_decorate = 72, inst_execution_mode_id = 331,
 };
 enum Decoration : std::uint32_t {
     array_stride = 6, matrix_stride = 7, built_in = 11, non_writable = 24, binding = 33, descriptor_set = 34, offset = 35,
@@ -53,20 +53,20 @@ class Module {
     /// The type, constant or variable of an id.
     [[nodiscard]] Instruction find(std::uint32_t id) const noexcept {
         for (Instruction const& i : all_) {
-            bool const is_type = i.op >= op_int - 2 && i.op <= op_pointer;
-            bool const is_value = i.op == op_constant || i.op == op_variable;
+            bool const is_type = i.op >= inst_int - 2 && i.op <= inst_pointer;
+            bool const is_value = i.op == inst_constant || i.op == inst_variable;
             if ((is_type && i[0] == id) || (is_value && i[1] == id)) return i;
         }
         return {};
     }
     [[nodiscard]] std::uint32_t decoration(std::uint32_t id, std::uint32_t which) const noexcept {
         for (Instruction const& i : all_)
-            if (i.op == op_decorate && i[0] == id && i[1] == which) return i[2];
+            if (i.op == inst_decorate && i[0] == id && i[1] == which) return i[2];
         return no_value;
     }
     [[nodiscard]] std::uint32_t decoration(std::uint32_t id, std::uint32_t member, std::uint32_t which) const noexcept {
         for (Instruction const& i : all_)
-            if (i.op == op_member_decorate && i[0] == id && i[1] == member && i[2] == which) return i[3];
+            if (i.op == inst_member_decorate && i[0] == id && i[1] == member && i[2] == which) return i[3];
         return no_value;
     }
 
@@ -75,12 +75,12 @@ class Module {
         if (depth > 16) return 0;
         Instruction const type = find(id);
         switch (type.op) {
-            case op_int:
-            case op_float: return type[1] / 8;
-            case op_vector: return type[2] * bytes_of(type[1], 0, depth + 1);
-            case op_matrix: return type[2] * stride;
-            case op_array: return find(type[2])[2] * decoration(id, array_stride);
-            case op_struct: return struct_bytes(type, depth);
+            case inst_int:
+            case inst_float: return type[1] / 8;
+            case inst_vector: return type[2] * bytes_of(type[1], 0, depth + 1);
+            case inst_matrix: return type[2] * stride;
+            case inst_array: return find(type[2])[2] * decoration(id, array_stride);
+            case inst_struct: return struct_bytes(type, depth);
             default: return 0;
         }
     }
@@ -116,7 +116,7 @@ VkDescriptorType type_of(Module const& module, Instruction const& variable) noex
     if (variable[2] == storage_buffer) return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     if (variable[2] == uniform) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     Instruction const pointee = module.find(module.find(variable[0])[2]);
-    bool const is_sampled_image = pointee.op == op_image && pointee[6] == 1;
+    bool const is_sampled_image = pointee.op == inst_image && pointee[6] == 1;
     return is_sampled_image ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }
 
@@ -126,11 +126,11 @@ bool is_read_only(Module const& module, Instruction const& variable) noexcept {
         return i.operands.size() > at && i.operands[at] == non_writable;
     };
     Instruction const block = module.find(module.find(variable[0])[2]);
-    if (block.op != op_struct || block.operands.size() < 2) return false;
+    if (block.op != inst_struct || block.operands.size() < 2) return false;
     std::size_t marked = 0;
     for (Instruction const& i : module.all()) {
-        if (i.op == op_decorate && i[0] == variable[1] && is_marked(i, 1)) return true;
-        if (i.op == op_member_decorate && i[0] == block[0] && is_marked(i, 2)) ++marked;
+        if (i.op == inst_decorate && i[0] == variable[1] && is_marked(i, 1)) return true;
+        if (i.op == inst_member_decorate && i[0] == block[0] && is_marked(i, 2)) ++marked;
     }
     return marked + 1 == block.operands.size();
 }
@@ -159,11 +159,11 @@ Result<ShaderInterface> reflect(std::span<std::uint32_t const> words, std::strin
                                                          " words that are no whole SPIR-V module"};
     ShaderInterface out;
     for (Instruction const& i : module.all()) {
-        if (i.op == op_execution_mode && i[1] == mode_local_size) out.local_size = {i[2], i[3], i[4]};
-        if (i.op == op_execution_mode_id && i[1] == mode_local_size_id)
+        if (i.op == inst_execution_mode && i[1] == mode_local_size) out.local_size = {i[2], i[3], i[4]};
+        if (i.op == inst_execution_mode_id && i[1] == mode_local_size_id)
             out.local_size = {module.find(i[2])[2], module.find(i[3])[2], module.find(i[4])[2]};
-        if (i.op == op_decorate && i[1] == built_in && i[2] == built_in_group_count) out.reads_group_count = true;
-        if (i.op == op_variable) add_variable(module, i, out);
+        if (i.op == inst_decorate && i[1] == built_in && i[2] == built_in_group_count) out.reads_group_count = true;
+        if (i.op == inst_variable) add_variable(module, i, out);
     }
     std::sort(out.bindings.begin(), out.bindings.end(), [](ShaderBinding const& a, ShaderBinding const& b) {
         return a.set != b.set ? a.set < b.set : a.binding < b.binding;
@@ -175,16 +175,16 @@ std::vector<ShaderMember> members_of(std::span<std::uint32_t const> words, std::
     using namespace spirv;
     Module const module(words);
     for (Instruction const& named : module.all()) {
-        if (named.op != op_name || text_at(named, 1) != struct_name) continue;
+        if (named.op != inst_name || text_at(named, 1) != struct_name) continue;
         Instruction const type = module.find(named[0]);
-        if (type.op != op_struct || module.decoration(type[0], 0, offset) == no_value) continue;
+        if (type.op != inst_struct || module.decoration(type[0], 0, offset) == no_value) continue;
         std::vector<ShaderMember> members;
         for (std::uint32_t m = 0; m + 1 < type.operands.size(); ++m) {
             ShaderMember member;
             member.offset = module.decoration(type[0], m, offset);
             member.bytes = module.member_end(type, m) - member.offset;
             for (Instruction const& i : module.all())
-                if (i.op == op_member_name && i[0] == type[0] && i[1] == m) member.name = text_at(i, 2);
+                if (i.op == inst_member_name && i[0] == type[0] && i[1] == m) member.name = text_at(i, 2);
             members.push_back(std::move(member));
         }
         return members;

@@ -9,17 +9,17 @@
 
 namespace {
 
-std::atomic<std::uint64_t> count{0};
+std::atomic<std::uint64_t> allocation_count{0};
 
 void* counted(void* p) {
-    ++count;
+    ++allocation_count;
     if (p == nullptr) throw std::bad_alloc();
     return p;
 }
 
 }  // namespace
 
-std::uint64_t allocations_made() noexcept { return count; }
+std::uint64_t allocations_made() noexcept { return allocation_count; }
 
 [[gnu::noinline]] void* operator new(std::size_t size) { return counted(std::malloc(size == 0 ? 1 : size)); }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
@@ -27,7 +27,7 @@ std::uint64_t allocations_made() noexcept { return count; }
     return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
 }
 [[gnu::noinline]] void* operator new(std::size_t size, std::nothrow_t const&) noexcept {
-    ++count;
+    ++allocation_count;
     return std::malloc(size == 0 ? 1 : size);
 }
 [[gnu::noinline]] void operator delete(void* p, std::nothrow_t const&) noexcept { std::free(p); }

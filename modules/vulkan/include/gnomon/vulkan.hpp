@@ -4,6 +4,7 @@
 
 #include <gnomon/vulkan/backend.hpp>
 #include <gnomon/vulkan/barrier.hpp>
+#include <gnomon/vulkan/bins.hpp>
 #include <gnomon/vulkan/descriptors.hpp>
 #include <gnomon/vulkan/draws.hpp>
 #include <gnomon/vulkan/error.hpp>
@@ -18,6 +19,7 @@
 #include <gnomon/vulkan/read_back.hpp>
 #include <gnomon/vulkan/resources.hpp>
 #include <gnomon/vulkan/ring.hpp>
+#include <gnomon/vulkan/scan.hpp>
 #include <gnomon/vulkan/shader.hpp>
 #include <gnomon/vulkan/spirv.hpp>
 #include <gnomon/vulkan/staging.hpp>
