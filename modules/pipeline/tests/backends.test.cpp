@@ -16,68 +16,38 @@ namespace {
 using namespace gnomon;
 using backend::Done;
 
-/// Hands every verb on, and counts what is staged.
-class Spy final : public backend::Backend {
+/// Counts what is staged.
+class Spy final : public backend::Forward {
   public:
-    explicit Spy(backend::Backend& to) : to_(to) {}
+    using Forward::Forward;
     std::uint64_t made = 0;
     std::uint64_t written_bytes = 0;
     std::uint64_t waits = 0;
     bool fails_to_finish = false;
 
     [[nodiscard]] std::string_view name() const noexcept override { return "spy"; }
-    [[nodiscard]] backend::Limits limits() const noexcept override { return to_.limits(); }
     backend::Result<backend::DrawListId> keep(std::span<backend::Draw const> draws) override {
         ++made;
-        return to_.keep(draws);
+        return target().keep(draws);
     }
     backend::Result<backend::TargetId> make_target(backend::TargetConfig const& config) override {
         ++made;
-        return to_.make_target(config);
+        return target().make_target(config);
     }
     backend::Result<backend::BufferId> make_buffer(std::size_t bytes) override {
         ++made;
-        return to_.make_buffer(bytes);
+        return target().make_buffer(bytes);
     }
-    backend::Result<Done> release(backend::DrawListId list) override { return to_.release(list); }
-    backend::Result<Done> release(backend::TargetId target) override { return to_.release(target); }
-    backend::Result<Done> release(backend::BufferId buffer) override { return to_.release(buffer); }
-    void stage(std::string_view name) override { to_.stage(name); }
     backend::Result<Done> write(backend::BufferId buffer, std::size_t offset,
                                 std::span<std::byte const> bytes) override {
         written_bytes += bytes.size();
-        return to_.write(buffer, offset, bytes);
-    }
-    backend::Result<backend::PassCounts> draw(backend::DrawListId list, backend::TargetId target,
-                                              std::span<backend::PassLayer const> layers) override {
-        return to_.draw(list, target, layers);
-    }
-    backend::Result<Done> count_samples(std::span<math::Aabb const> boxes, backend::TargetId target,
-                                        backend::PassLayer const& view, backend::BufferId counts,
-                                        std::size_t first) override {
-        return to_.count_samples(boxes, target, view, counts, first);
-    }
-    backend::Result<Done> run(backend::Kernel const& kernel, backend::KernelCall const& call) override {
-        return to_.run(kernel, call);
-    }
-    backend::Result<Done> copy(backend::TargetPart const& from, backend::TargetId to, std::uint32_t layer,
-                               math::ivec2 const& at) override {
-        return to_.copy(from, to, layer, at);
-    }
-    backend::Result<Done> read(backend::BufferId buffer, std::size_t offset, std::span<std::byte> out) override {
-        return to_.read(buffer, offset, out);
-    }
-    backend::Result<Done> read(backend::TargetPart const& part, std::span<std::byte> out) override {
-        return to_.read(part, out);
+        return target().write(buffer, offset, bytes);
     }
     backend::Result<std::span<backend::StageTime const>> finish() override {
         ++waits;
         if (fails_to_finish) return core::Failure{backend::Error::device_lost, "finish: the device stopped"};
-        return to_.finish();
+        return target().finish();
     }
-
-  private:
-    backend::Backend& to_;
 };
 
 struct Built {

@@ -4,6 +4,7 @@
 #include <gnomon/backend/check.hpp>
 #include <gnomon/backend/draw.hpp>
 #include <gnomon/backend/error.hpp>
+#include <gnomon/backend/forward.hpp>
 #include <gnomon/backend/instances.hpp>
 #include <gnomon/backend/kernel.hpp>
 #include <gnomon/backend/null.hpp>
