@@ -1,5 +1,5 @@
-// Whether each sample sees the light: the GLSL half of `ray`. kernels.hpp has the layout, trace/filter.hpp the same walk
-// in C++. What the filter cannot decide is unsure, and decided exactly by whoever asked.
+// Whether each sample sees the light: the GLSL half of `ray`. kernels.hpp has the layout, trace/filter.hpp the same
+// walk in C++. What the filter cannot decide is unsure, and decided exactly by whoever asked.
 
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -59,14 +59,15 @@ int solid_in_texture(uvec4 material, uvec4 info, uint triangle, GnMeeting meetin
     vec2 uv_b = corner_uv[at + 1u];
     vec2 uv_c = corner_uv[at + 2u];
     vec3 values = vec3(uintBitsToFloat(material.y), uintBitsToFloat(material.z), 0.0);
-    if (!gn_in_range(vec3(uv_a.x, uv_b.x, uv_c.x)) || !gn_in_range(vec3(uv_a.y, uv_b.y, uv_c.y)) || !gn_in_range(values))
+    if (!gn_in_range(vec3(uv_a.x, uv_b.x, uv_c.x)) || !gn_in_range(vec3(uv_a.y, uv_b.y, uv_c.y)) ||
+        !gn_in_range(values))
         return 2;
     GnShares shares = gn_shares(meeting);
     if (!shares.usable) return 2;
     GnTap u = gn_tap(gn_coordinate(shares, uv_a.x, uv_b.x, uv_c.x), int(info.y), int(info.w & 0xFFu));
     GnTap v = gn_tap(gn_coordinate(shares, uv_a.y, uv_b.y, uv_c.y), int(info.z), int(info.w >> 8 & 0xFFu));
-    vec4 codes = vec4(code_at(info, u.first, v.first), code_at(info, u.second, v.first), code_at(info, u.first, v.second),
-                      code_at(info, u.second, v.second));
+    vec4 codes = vec4(code_at(info, u.first, v.first), code_at(info, u.second, v.first),
+                      code_at(info, u.first, v.second), code_at(info, u.second, v.second));
     return gn_solid(codes, u, v, values.x, values.y);
 }
 
@@ -139,8 +140,10 @@ int blocked_by_any(GnRay ray, uint own) {
         uvec4 children = nodes[at * 8u + 6u];
         for (uint lane = 0u; lane < 4u; ++lane) {
             if (children[lane] == none || !touches(ray, at * 8u, lane)) continue;
-            if (size == stack_size) unsure = true;
-            else stack[size++] = children[lane];
+            if (size == stack_size)
+                unsure = true;
+            else
+                stack[size++] = children[lane];
         }
     }
     return unsure ? 2 : 0;
@@ -171,7 +174,8 @@ uint answer_of(uint i) {
     bool light_is_point = c.light_at_infinity == 0u;
     bool eye_is_point = c.eye_at_infinity == 0u;
     if (own == none) return 1u;
-    if (!gn_in_range(start) || (light_is_point && !gn_in_range(light)) || (eye_is_point && !gn_in_range(eye))) return 2u;
+    if (!gn_in_range(start) || (light_is_point && !gn_in_range(light)) || (eye_is_point && !gn_in_range(eye)))
+        return 2u;
     light = light_is_point ? light : gn_scaled(light);
     eye = eye_is_point ? eye : gn_scaled(eye);
     int away = turned_away(own, eye, light);

@@ -34,11 +34,14 @@ struct Scale {
 Scale any_scale(Random& random) {
     float const size = std::ldexp(1.0F, random.below(30) - 10);
     float const away = random.below(3) == 0 ? 1e7F : random.below(3) == 0 ? 8192.0F : 0.0F;
-    return {size, math::vec3(away * random.uniform(-1.0F, 1.0F), away * random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F))};
+    return {size, math::vec3(away * random.uniform(-1.0F, 1.0F), away * random.uniform(-1.0F, 1.0F),
+                             random.uniform(-1.0F, 1.0F))};
 }
 
 math::vec3 point_of(Random& random, Scale const& scale) {
-    return scale.offset + math::vec3(random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)) * scale.size;
+    return scale.offset +
+           math::vec3(random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)) *
+               scale.size;
 }
 
 trace::Triangle triangle_of(Random& random, Scale const& scale) {
@@ -47,9 +50,9 @@ trace::Triangle triangle_of(Random& random, Scale const& scale) {
     math::vec3 b = a + (point_of(random, scale) - scale.offset) * share;
     math::vec3 c = a + (point_of(random, scale) - scale.offset) * share;
     switch (random.below(6)) {
-        case 0: c = a + (b - a) * random.uniform(0.0F, 1.0F); break;                 // a sliver, or nearly no triangle
-        case 1: b.y = c.y = a.y; break;                                              // in an axis plane
-        case 2: b.x = a.x; break;                                                    // an edge along an axis plane
+        case 0: c = a + (b - a) * random.uniform(0.0F, 1.0F); break;  // a sliver, or nearly no triangle
+        case 1: b.y = c.y = a.y; break;                               // in an axis plane
+        case 2: b.x = a.x; break;                                     // an edge along an axis plane
         default: break;
     }
     return {a, b, c};
@@ -73,7 +76,8 @@ Segment segment_at(Random& random, trace::Triangle const& t, Scale const& scale)
     math::vec3 const aim = aim_of(random, t);
     math::vec3 d = (point_of(random, scale) - scale.offset) * std::ldexp(1.0F, random.below(12) - 6);
     int const kind = random.below(8);
-    if (kind == 0) d = (t[1] - t[0]) * random.uniform(-3.0F, 3.0F) + (t[2] - t[0]) * random.uniform(-3.0F, 3.0F);  // grazing
+    if (kind == 0)
+        d = (t[1] - t[0]) * random.uniform(-3.0F, 3.0F) + (t[2] - t[0]) * random.uniform(-3.0F, 3.0F);  // grazing
     if (kind == 1) d = math::vec3(0.0F, d.y, 0.0F);
     if (kind == 2) d.x = 0.0F;
     bool const sun = random.below(2) == 0;
@@ -123,7 +127,8 @@ using scenes::Quad;
 /// Sides in 113 bits from the exact coordinates; the slopes' quotients are off by 2^-113.
 std::array<Quad, 3> sides_in_quad(formula::GnRay<Sloppy> const& ray, trace::Triangle const& t, Segment const& s) {
     auto const coordinate = [&](math::vec3 const& p, int axis, float sign, bool relative) {
-        return (static_cast<Quad>(p[axis]) - (relative ? static_cast<Quad>(s.start[axis]) : Quad{0})) * static_cast<Quad>(sign);
+        return (static_cast<Quad>(p[axis]) - (relative ? static_cast<Quad>(s.start[axis]) : Quad{0})) *
+               static_cast<Quad>(sign);
     };
     int const axis[3] = {ray.axis_x.v, ray.axis_y.v, ray.axis_z.v};
     float const sign[3] = {ray.sign.x.v.v, ray.sign.y.v.v, ray.sign.z.v.v};
@@ -157,7 +162,8 @@ Worst worst_errors(int count, std::uint64_t seed) {
         Quad sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             sum += exact[k];
-            worst.side = std::max(worst.side, std::abs(static_cast<double>(static_cast<Quad>(got[k]) - exact[k])) / bound);
+            worst.side =
+                std::max(worst.side, std::abs(static_cast<double>(static_cast<Quad>(got[k]) - exact[k])) / bound);
         }
         Quad const off = static_cast<Quad>(meeting.total.v.v) - sum;
         worst.total = std::max(worst.total, std::abs(static_cast<double>(off)) / (5.4 * bound));
@@ -171,7 +177,9 @@ int rejected_boxes(int count, std::uint64_t seed) {
     int rejected = 0;
     for (int i = 0; i < count; ++i) {
         int const exponent = random.below(3) == 0 ? -149 : random.below(160) - 149;
-        auto const number = [&](int range) { return std::ldexp(static_cast<float>(random.below(2 * range + 1) - range), exponent); };
+        auto const number = [&](int range) {
+            return std::ldexp(static_cast<float>(random.below(2 * range + 1) - range), exponent);
+        };
         math::vec3 lo;
         math::vec3 hi;
         math::vec3 point;
@@ -238,8 +246,10 @@ struct MaskedTriangle {
             t = static_cast<std::uint8_t>(kind == 0 ? random.below(256) : kind == 1 ? 255 * random.below(2) : 128);
         auto const wrap = [&] { return static_cast<math::Wrap>(random.below(3)); };
         textures[0] = {texels, math::ivec2(width, height), wrap(), wrap(), channels};
-        float const cutoff = random.below(4) == 0 ? static_cast<float>(random.below(256)) / 255.0F : random.uniform(0.0F, 1.0F);
-        materials[0] = {true, random.below(2) == 0 ? 1.0F : random.uniform(0.0F, 2.0F), cutoff, random.below(20) == 0 ? 7U : 0U};
+        float const cutoff =
+            random.below(4) == 0 ? static_cast<float>(random.below(256)) / 255.0F : random.uniform(0.0F, 1.0F);
+        materials[0] = {true, random.below(2) == 0 ? 1.0F : random.uniform(0.0F, 2.0F), cutoff,
+                        random.below(20) == 0 ? 7U : 0U};
         float const reach = std::ldexp(1.0F, random.below(12) - 2);
         for (math::vec2& uv : uvs) uv = math::vec2(random.uniform(-reach, reach), random.uniform(-reach, reach));
         if (random.below(4) == 0) uvs[1] = uvs[0];
@@ -322,7 +332,8 @@ Tally compare_walls(int count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("the filter never decides a triangle wrongly, whatever each operation rounds and flushes", "[trace][filter][property]") {
+TEST_CASE("the filter never decides a triangle wrongly, whatever each operation rounds and flushes",
+          "[trace][filter][property]") {
     Tally const tally = compare_triangles<Sloppy>(200'000, 71);
     CHECK(tally.wrong == 0);
     CHECK(tally.blocked > 15'000);
@@ -345,11 +356,13 @@ TEST_CASE("the sides' errors stay within the proven bounds, which are not much t
     CHECK(worst.total > 0.05);
 }
 
-TEST_CASE("the filter never rejects a box that the segment meets in one corner, edge or face point", "[trace][filter][property]") {
+TEST_CASE("the filter never rejects a box that the segment meets in one corner, edge or face point",
+          "[trace][filter][property]") {
     CHECK(rejected_boxes(100'000, 75) == 0);
 }
 
-TEST_CASE("the filter's walk of a hierarchy is exact where it is sure, on random and aimed segments", "[trace][filter][property]") {
+TEST_CASE("the filter's walk of a hierarchy is exact where it is sure, on random and aimed segments",
+          "[trace][filter][property]") {
     Tally const tally = compare_scenes(20, 1'000, 76);
     CHECK(tally.wrong == 0);
     CHECK(tally.blocked > 3'000);
@@ -373,14 +386,16 @@ TEST_CASE("a vertex beyond the filter's range makes the hierarchy unsure", "[tra
     CHECK(filter_blocked(trace::Bvh{}, s) == Answer::free);
 }
 
-TEST_CASE("the filter never takes a hole for solid or solid for a hole, whatever each operation rounds", "[trace][filter][alpha][property]") {
+TEST_CASE("the filter never takes a hole for solid or solid for a hole, whatever each operation rounds",
+          "[trace][filter][alpha][property]") {
     Tally const tally = compare_masks(30'000, 77);
     CHECK(tally.wrong == 0);
     CHECK(tally.blocked > 5'000);
     CHECK(tally.unsure < tally.asked / 4);
 }
 
-TEST_CASE("a plane between eye and light is certain or unsure, whatever each operation rounds", "[trace][filter][property]") {
+TEST_CASE("a plane between eye and light is certain or unsure, whatever each operation rounds",
+          "[trace][filter][property]") {
     Tally const tally = compare_own_planes(100'000, 78);
     CHECK(tally.wrong == 0);
     CHECK(tally.blocked > 25'000);
@@ -405,7 +420,8 @@ TEST_CASE("a light straight above a box is decided on its walls and below its ed
         for (float const at_z : z)
             for (bool const sun : {false, true}) {
                 math::vec3 const start(at_x, 12.3F, at_z);
-                Segment const s{start, sun ? Light::direction(math::vec3(-0.0F, 1.0F, 0.0F)) : Light::point(math::vec3(at_x, 200.0F, at_z))};
+                Segment const s{start, sun ? Light::direction(math::vec3(-0.0F, 1.0F, 0.0F))
+                                           : Light::point(math::vec3(at_x, 200.0F, at_z))};
                 Answer const got = trace::filter_blocks(roof, s);
                 CHECK((got == Answer::unsure || (got == Answer::blocked) == blocks(roof, s)));
                 sure += got != Answer::unsure ? 1 : 0;
@@ -415,7 +431,8 @@ TEST_CASE("a light straight above a box is decided on its walls and below its ed
 
 TEST_CASE("beyond what the filter was made for it is unsure", "[trace][filter]") {
     using trace::filter_blocks;
-    trace::Triangle const t{math::vec3(-1.0F, 1.0F, -1.0F), math::vec3(1.0F, 1.0F, -1.0F), math::vec3(0.0F, 1.0F, 1.0F)};
+    trace::Triangle const t{math::vec3(-1.0F, 1.0F, -1.0F), math::vec3(1.0F, 1.0F, -1.0F),
+                            math::vec3(0.0F, 1.0F, 1.0F)};
     math::vec3 const below(0.0F, 0.0F, 0.0F);
     math::vec3 const up(0.0F, 2.0F, 0.0F);
     CHECK(filter_blocks(t, {below, Light::direction(up)}) == Answer::blocked);

@@ -56,7 +56,8 @@ struct Float {
     }
     static Float flushed(float x) noexcept {
         State& s = state();
-        bool const flush = s.flush && std::abs(x) < 0x1p-126F && (s.rounding != Rounding::drawn || s.random.below(2) == 0);
+        bool const flush =
+            s.flush && std::abs(x) < 0x1p-126F && (s.rounding != Rounding::drawn || s.random.below(2) == 0);
         return Float(flush ? 0.0F : x);
     }
     static double operand(Float const& x) noexcept { return static_cast<double>(flushed(x.v).v); }

@@ -51,7 +51,8 @@ scene::Scene scene_with_holes() {
         scene::Image image;
         image.size_px = math::ivec2(13 + 20 * static_cast<int>(i), 7 + 9 * static_cast<int>(i));
         image.rgba.resize(static_cast<std::size_t>(4 * image.size_px.x * image.size_px.y));
-        for (std::uint8_t& code : image.rgba) code = static_cast<std::uint8_t>((noise = noise * 1664525 + 1013904223) >> 24U);
+        for (std::uint8_t& code : image.rgba)
+            code = static_cast<std::uint8_t>((noise = noise * 1664525 + 1013904223) >> 24U);
         city.images.push_back(std::move(image));
         city.textures.push_back({i, static_cast<math::Wrap>(i), static_cast<math::Wrap>((i + 1) % 3)});
     }
@@ -89,7 +90,8 @@ RayStage ray_stage(std::string const& name, std::uint64_t triangles, int size_px
 std::array<pipeline::Light, 3> ray_lights(RayStage const& stage) {
     math::Aabb const& bounds = stage.geometry.bounds;
     math::vec3 const lamp = bounds.lo + (bounds.hi - bounds.lo) * math::vec3(0.4F, stage.inside ? 0.7F : 1.6F, 0.45F);
-    return {pipeline::sun(math::dvec3(-0.45, -0.8, -0.4)), pipeline::bulb(math::to_double(lamp) + stage.geometry.origin_m),
+    return {pipeline::sun(math::dvec3(-0.45, -0.8, -0.4)),
+            pipeline::bulb(math::to_double(lamp) + stage.geometry.origin_m),
             pipeline::sun(math::dvec3(0.0, -1.0, 0.0))};
 }
 
@@ -130,9 +132,9 @@ void compare_ray(RayStage const& stage, std::string_view name, double unsure) {
         REQUIRE(backend);
         for (pipeline::Light const& light : ray_lights(stage)) {
             RayTally const tally = trace_on(**backend, stage, light);
-            std::printf("ray, %.*s: %llu samples, %llu lit, %llu left to the CPU\n", static_cast<int>(name.size()), name.data(),
-                        static_cast<unsigned long long>(tally.samples), static_cast<unsigned long long>(tally.lit),
-                        static_cast<unsigned long long>(tally.unsure));
+            std::printf("ray, %.*s: %llu samples, %llu lit, %llu left to the CPU\n", static_cast<int>(name.size()),
+                        name.data(), static_cast<unsigned long long>(tally.samples),
+                        static_cast<unsigned long long>(tally.lit), static_cast<unsigned long long>(tally.unsure));
             CAPTURE(std::string(name));
             CHECK(tally.samples > 1'000);
             CHECK(tally.wrong == 0);
@@ -145,7 +147,8 @@ void compare_ray(RayStage const& stage, std::string_view name, double unsure) {
 
 }  // namespace
 
-TEST_CASE("the ray kernel's answers are the exact ones for every sample, and few are left to the CPU", "[vulkan][ray]") {
+TEST_CASE("the ray kernel's answers are the exact ones for every sample, and few are left to the CPU",
+          "[vulkan][ray]") {
     compare_ray(ray_stage("city", 52'000, 96), "city", 0.01);
     compare_ray(ray_stage("rayyard", 70'000, 96), "rayyard", 0.01);
     compare_ray(ray_stage("sheet", 0, 96), "sheet", 0.01);
@@ -161,7 +164,8 @@ TEST_CASE("the ray kernel decides masked leaves as the CPU does", "[vulkan][ray]
 }
 
 TEST_CASE("the ray kernel's answers are the exact ones in whole scenes", "[.full][vulkan][ray]") {
-    for (char const* const name : {"city", "rayyard", "sheet", "cage"}) compare_ray(ray_stage(name, 0, 512), name, 0.005);
+    for (char const* const name : {"city", "rayyard", "sheet", "cage"})
+        compare_ray(ray_stage(name, 0, 512), name, 0.005);
     compare_ray(ray_stage("forest", 0, 512), "forest", 0.04);
     char const* const path = std::getenv("GNOMON_SCENE");
     if (path == nullptr) return;

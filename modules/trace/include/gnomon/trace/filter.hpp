@@ -1,9 +1,9 @@
 #pragma once
-// The question of this module as a GPU asks it: in float, with a third answer. What is not `unsure` is the exact answer,
-// whatever the device rounds and flushes; the few that are unsure go to `is_blocked`.
+// The question of this module as a GPU asks it: in float, with a third answer. What is not `unsure` is the exact
+// answer, whatever the device rounds and flushes; the few that are unsure go to `is_blocked`.
 //
-// The formulas, and the proof of their bounds, are in formula/ray.glsl and formula/mask.glsl, which shaders include; here
-// they are C++, over any scalar type. On the CPU `is_blocked` is faster: this is what a shader is tested against.
+// The formulas, and the proof of their bounds, are in formula/ray.glsl and formula/mask.glsl, which shaders include;
+// here they are C++, over any scalar type. On the CPU `is_blocked` is faster: this is what a shader is tested against.
 
 #include <gnomon/core/id.hpp>
 #include <gnomon/math/vec.hpp>
@@ -22,7 +22,8 @@
 namespace gnomon::trace {
 
 // Shaders read nodes and blocks as rows of four words: lo and hi by axis, children; corners by axis, ids.
-static_assert(offsetof(Node, lo) == 0 && offsetof(Node, hi) == 48 && offsetof(Node, child) == 96 && sizeof(Node) == 128);
+static_assert(offsetof(Node, lo) == 0 && offsetof(Node, hi) == 48 && offsetof(Node, child) == 96 &&
+              sizeof(Node) == 128);
 static_assert(offsetof(Block, corner) == 0 && offsetof(Block, id) == 144 && sizeof(Block) == 160);
 
 /// The values are those of the formulas.
@@ -78,7 +79,8 @@ template <class S>
         bool const legal = is_valid(to) && (to.at_infinity || in_range(to.xyz));
         auto const xyz = spread<S>(legal ? to.xyz : math::vec3(0.0F));
         auto const at = to.at_infinity ? formula::gn_scaled<S>(xyz) : xyz;
-        auto const side = formula::gn_plane_side<S>(spread<S>(t[0]), spread<S>(t[1]), spread<S>(t[2]), at, !to.at_infinity);
+        auto const side =
+            formula::gn_plane_side<S>(spread<S>(t[0]), spread<S>(t[1]), spread<S>(t[2]), at, !to.at_infinity);
         return legal ? side : formula::Int<S>(2);
     };
     return static_cast<Answer>(formula::gn_turned_away<S>(side_of(eye), side_of(light)).v);
@@ -94,12 +96,14 @@ template <class S>
     for (int i = 0; i < 3; ++i)
         if (mirrored[i]) std::swap(first[axis[i]], last[axis[i]]);
     return formula::gn_may_touch<S>(ray, formula::gn_in_frame<S>(ray, renamed(ray, first)),
-                                    formula::gn_in_frame<S>(ray, renamed(ray, last))).v;
+                                    formula::gn_in_frame<S>(ray, renamed(ray, last)))
+        .v;
 }
 
 /// Whether the triangle is solid where the segment passes it. expects: that it may be met.
 template <class S>
-[[nodiscard]] Answer filter_solid(AlphaTest const& test, core::TriangleId triangle, formula::GnMeeting<S> const& meeting) noexcept {
+[[nodiscard]] Answer filter_solid(AlphaTest const& test, core::TriangleId triangle,
+                                  formula::GnMeeting<S> const& meeting) noexcept {
     std::size_t const id = triangle.index();
     if (id >= test.material_of.size() || test.material_of[id] >= test.materials.size()) return Answer::blocked;
     AlphaMaterial const& material = test.materials[test.material_of[id]];
@@ -124,13 +128,16 @@ template <class S>
         std::ptrdiff_t const at = std::ptrdiff_t{row.v} * texture.size_px.x + column.v;
         return S(static_cast<float>(texture.texels.data()[(at + 1) * texture.channels - 1]));
     };
-    formula::Vec4<S> const codes(code(x.first, y.first), code(x.second, y.first), code(x.first, y.second), code(x.second, y.second));
+    formula::Vec4<S> const codes(code(x.first, y.first), code(x.second, y.first), code(x.first, y.second),
+                                 code(x.second, y.second));
     return static_cast<Answer>(formula::gn_solid<S>(codes, x, y, S(material.factor), S(material.cutoff)).v);
 }
 
 struct AllSolid {
     template <class S>
-    [[nodiscard]] Answer operator()(core::TriangleId, formula::GnMeeting<S> const&) const noexcept { return Answer::blocked; }
+    [[nodiscard]] Answer operator()(core::TriangleId, formula::GnMeeting<S> const&) const noexcept {
+        return Answer::blocked;
+    }
 };
 
 struct MaskFilter {
@@ -154,7 +161,8 @@ struct MaskFilter {
 
 /// The walk that the shader makes, step by step.
 template <class S, std::size_t StackSize = filter_stack, class Solidity>
-[[nodiscard]] Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own, Solidity const& solidity) noexcept {
+[[nodiscard]] Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own,
+                                    Solidity const& solidity) noexcept {
     if (bvh.nodes.empty()) return Answer::free;
     formula::GnRay<S> const ray = make_ray<S>(s);
     if (!ray.usable.v || !in_range(bvh.nodes.front())) return Answer::unsure;
@@ -167,10 +175,14 @@ template <class S, std::size_t StackSize = filter_stack, class Solidity>
         for (std::size_t i = 0; i < width; ++i) {
             if (!at.is_block()) {
                 Node const& node = bvh.nodes[at.index()];
-                auto const corner = [&](float const (*from)[width]) { return math::vec3(from[0][i], from[1][i], from[2][i]); };
+                auto const corner = [&](float const(*from)[width]) {
+                    return math::vec3(from[0][i], from[1][i], from[2][i]);
+                };
                 if (node.child[i].is_empty() || !may_touch(ray, corner(node.lo), corner(node.hi))) continue;
-                if (size == StackSize) unsure = true;
-                else stack[size++] = node.child[i];
+                if (size == StackSize)
+                    unsure = true;
+                else
+                    stack[size++] = node.child[i];
                 continue;
             }
             Block const& block = bvh.blocks[at.index()];
@@ -198,7 +210,8 @@ template <class S, std::size_t StackSize = filter_stack, class Solidity>
 /// Whether the plane of `t` has eye and light strictly on opposite sides (`blocked`), or unsure.
 ///
 /// expects: finite corners, at most `max_filter_coordinate`.
-[[nodiscard]] inline Answer filter_separates(Triangle const& t, predicates::Target const& eye, Light const& light) noexcept {
+[[nodiscard]] inline Answer filter_separates(Triangle const& t, predicates::Target const& eye,
+                                             Light const& light) noexcept {
     return detail::filter_separates<float>(t, eye, light);
 }
 
@@ -210,7 +223,8 @@ template <class S, std::size_t StackSize = filter_stack, class Solidity>
 }
 
 /// The same with masked triangles.
-[[nodiscard]] inline Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own, AlphaTest const& test) noexcept {
+[[nodiscard]] inline Answer filter_blocked(Bvh const& bvh, Segment const& s, core::TriangleId own,
+                                           AlphaTest const& test) noexcept {
     return detail::filter_blocked<float>(bvh, s, own, detail::MaskFilter{test});
 }
 

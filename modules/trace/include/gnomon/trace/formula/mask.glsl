@@ -99,11 +99,13 @@ GN_FN GN_TYPE(GnTap) gn_tap(GN_VEC2 coordinate, GN_INT size, GN_INT wrap) {
 GN_FN GN_INT gn_at_least(GN_FLOAT factor, GN_FLOAT cutoff) {
     GN_UINT f = floatBitsToUint(factor) & 0x7FFFFFFFu;
     GN_UINT o = floatBitsToUint(cutoff) & 0x7FFFFFFFu;
-    GN_BOOL plain = (f == 0u || (f >= 0x800000u && f < 0x7F800000u)) && (o == 0u || (o >= 0x800000u && o < 0x7F800000u));
+    GN_BOOL plain =
+        (f == 0u || (f >= 0x800000u && f < 0x7F800000u)) && (o == 0u || (o >= 0x800000u && o < 0x7F800000u));
     return GN_SELECT(plain, GN_SELECT(factor >= cutoff, 1, 0), 2);
 }
 
-/// The answer from four texels' codes, 0 to 255: first and second of the first row in x and y, of the second in z and w.
+/// The answer from four texels' codes, 0 to 255: first and second of the first row in x and y, of the second in z and
+/// w.
 ///
 /// expects: factor and cutoff at most 2^28.
 GN_FN GN_INT gn_solid(GN_VEC4 codes, GN_TYPE(GnTap) u, GN_TYPE(GnTap) v, GN_FLOAT factor, GN_FLOAT cutoff) {

@@ -1,17 +1,17 @@
 // May a segment touch a box, and does it meet a triangle? In float, with proven bounds, in C++ and in GLSL.
 //
-// Three answers: what the filter cannot decide is `GN_UNSURE`, and an exact test has to be asked. It needs no doubles, no
+// Three answers: what the filter cannot decide is unsure, and an exact test has to be asked. It needs no doubles, no
 // rounding mode, no denormals and no infinities: Vulkan promises none of them.
 //
-// What is assumed of the arithmetic. With e = 2^-23, f = 2^-126: sums, differences and products are off by at most e times
-// their size (one unit of the last place: any rounding) plus f (inputs and results below 2^-126 may become 0), quotients
-// by 2.5 e plus f. A fused multiply-add only leaves a rounding out. All coordinates are at most 2^28 (`gn_in_range`), so
-// nothing overflows: no number here is above 2^93.
+// What is assumed of the arithmetic. With e = 2^-23, f = 2^-126: sums, differences and products are off by at most e
+// times their size (one unit of the last place: any rounding) plus f (inputs and results below 2^-126 may become 0),
+// quotients by 2.5 e plus f. A fused multiply-add only leaves a rounding out. All coordinates are at most 2^28
+// (`gn_in_range`), so nothing overflows: no number here is above 2^93.
 //
-// The ray's frame. Axes are renamed and mirrored, which is exact, so that the segment runs from the origin along z most, x
-// and y least: x = slope_x z, y = slope_y z with slopes in [0, 1 + 3e]. A slope is a quotient of differences: off by at most
-// (1 + e)(1 + 2.5e)/(1 - e) and what may be flushed, 3f / 2^-40 and f: 4.6e slope + 2^-84. (A sun's direction is given, not
-// a difference: 2.5e slope + 2^-84.)
+// The ray's frame. Axes are renamed and mirrored, which is exact, so that the segment runs from the origin along z
+// most, x and y least: x = slope_x z, y = slope_y z with slopes in [0, 1 + 3e]. A slope is a quotient of differences:
+// off by at most (1 + e)(1 + 2.5e)/(1 - e) and what may be flushed, 3f / 2^-40 and f: 4.6e slope + 2^-84. (A sun's
+// direction is given, not a difference: 2.5e slope + 2^-84.)
 
 #ifndef GNOMON_TRACE_FORMULA_RAY_GLSL
 #define GNOMON_TRACE_FORMULA_RAY_GLSL
@@ -39,10 +39,10 @@ GN_STRUCT(GnRay) {
 
 /// How a segment and a triangle lie; the sides' signs agree where it is met.
 GN_STRUCT(GnMeeting) {
-    GN_INT answer;    ///< 0: certainly free, 1: certainly blocked, 2: unsure.
-    GN_VEC3 sides;    ///< Of the edges opposite to the corners: their shares of `total` are the corners' weights.
+    GN_INT answer;  ///< 0: certainly free, 1: certainly blocked, 2: unsure.
+    GN_VEC3 sides;  ///< Of the edges opposite to the corners: their shares of `total` are the corners' weights.
     GN_FLOAT total;
-    GN_FLOAT bound;   ///< Of each side's error; the total's is 5.4 times that.
+    GN_FLOAT bound;  ///< Of each side's error; the total's is 5.4 times that.
 };
 
 /// Which sides are exactly 0, by the corners that they are opposite to.
@@ -72,8 +72,8 @@ GN_FN GN_BOOL gn_same(GN_FLOAT a, GN_FLOAT b) {
     return floatBitsToUint(a) == floatBitsToUint(b) || ((floatBitsToUint(a) | floatBitsToUint(b)) << 1) == 0u;
 }
 
-/// Whether a direction without x (`flat_x`), without y or without both lies in the plane of a, b, c for certain: all three
-/// have one x, or one y, or two of them differ in z at most. So it is where the sun stands straight above walls.
+/// Whether a direction without x (`flat_x`), without y or without both lies in the plane of a, b, c for certain: all
+/// three have one x, or one y, or two of them differ in z at most. So it is where the sun stands straight above walls.
 GN_FN GN_BOOL gn_holds_direction(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_BOOL flat_x, GN_BOOL flat_y) {
     GN_BOOL ab_x = gn_same(a.x, b.x);
     GN_BOOL bc_x = gn_same(b.x, c.x);
@@ -85,7 +85,8 @@ GN_FN GN_BOOL gn_holds_direction(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_BOOL flat_x
     return along_z || (flat_x && ab_x && bc_x) || (flat_y && ab_y && bc_y);
 }
 
-/// A direction times the power of two that brings its largest component into [1, 2): exact but for what is flushed, below f.
+/// A direction times the power of two that brings its largest component into [1, 2): exact but for what is flushed,
+/// below f.
 ///
 /// returns: zero for a direction that is zero or so small or large that there is no such power.
 GN_FN GN_VEC3 gn_scaled(GN_VEC3 direction) {
@@ -109,7 +110,8 @@ GN_FN GN_TYPE(GnRay) gn_make_ray(GN_VEC3 start, GN_VEC3 end, GN_BOOL end_is_poin
     ray.axis_z = GN_SELECT(size.x >= size.y && size.x >= size.z, 0, GN_SELECT(size.y >= size.z, 1, 2));
     ray.axis_x = GN_SELECT(ray.axis_z == 2, 0, ray.axis_z + 1);
     ray.axis_y = GN_SELECT(ray.axis_x == 2, 0, ray.axis_x + 1);
-    ray.start = GN_VEC3(gn_component(start, ray.axis_x), gn_component(start, ray.axis_y), gn_component(start, ray.axis_z));
+    ray.start =
+        GN_VEC3(gn_component(start, ray.axis_x), gn_component(start, ray.axis_y), gn_component(start, ray.axis_z));
     ray.sign = GN_VEC3(GN_SELECT(gn_component(extent, ray.axis_x) < 0.0, GN_FLOAT(-1.0), GN_FLOAT(1.0)),
                        GN_SELECT(gn_component(extent, ray.axis_y) < 0.0, GN_FLOAT(-1.0), GN_FLOAT(1.0)),
                        GN_SELECT(gn_component(extent, ray.axis_z) < 0.0, GN_FLOAT(-1.0), GN_FLOAT(1.0)));
@@ -123,8 +125,9 @@ GN_FN GN_TYPE(GnRay) gn_make_ray(GN_VEC3 start, GN_VEC3 end, GN_BOOL end_is_poin
     ray.slope_error = GN_SELECT(end_is_point, GN_FLOAT(9.5367431640625e-7), GN_FLOAT(7.152557373046875e-7));
     ray.end = GN_SELECT(end_is_point, along, GN_FLOAT(1.152921504606847e18));
     ray.has_end = end_is_point;
-    GN_VEC3 from = GN_VEC3(GN_SELECT(end_is_point, start.x, GN_FLOAT(0.0)), GN_SELECT(end_is_point, start.y, GN_FLOAT(0.0)),
-                           GN_SELECT(end_is_point, start.z, GN_FLOAT(0.0)));
+    GN_VEC3 from =
+        GN_VEC3(GN_SELECT(end_is_point, start.x, GN_FLOAT(0.0)), GN_SELECT(end_is_point, start.y, GN_FLOAT(0.0)),
+                GN_SELECT(end_is_point, start.z, GN_FLOAT(0.0)));
     ray.flat_x = gn_same(gn_component(from, ray.axis_x), gn_component(end, ray.axis_x));
     ray.flat_y = gn_same(gn_component(from, ray.axis_y), gn_component(end, ray.axis_y));
     return ray;
@@ -140,16 +143,16 @@ GN_FN GN_VEC3 gn_in_frame(GN_TYPE(GnRay) ray, GN_VEC3 p) {
     return GN_VEC3(x, y, z);
 }
 
-/// Whether the closed segment may touch the box; never false where it does. `lo` and `hi` are the box's corners of least
-/// and greatest coordinates in the frame (`gn_in_frame` of lo and hi, exchanged along mirrored axes).
+/// Whether the closed segment may touch the box; never false where it does. `lo` and `hi` are the box's corners of
+/// least and greatest coordinates in the frame (`gn_in_frame` of lo and hi, exchanged along mirrored axes).
 ///
 /// If the segment touches the box at (x, y, z), then with exact numbers
 ///     max(lo.z, 0) <= z <= min(hi.z, end),  lo.x <= x = slope_x z <= hi.x,  and so for y,
 /// hence slope_x max(lo.z, 0) <= hi.x, lo.x <= slope_x min(hi.z, end), and slope_y lo.x <= slope_y slope_x z =
-/// slope_x y <= slope_x hi.y. (These conditions are also sufficient: they are the axes along which a box and a line can be
-/// separated.) Each compares two numbers that are not negative where it matters, off by at most 4.6e of the slope, e of the
-/// plane, e of the product, and flushed parts: (2^-84 + 2f) 2^29 < 2^-54. In sum less than 16e and 2^-53; allowed are 32e
-/// and 2^-50.
+/// slope_x y <= slope_x hi.y. (These conditions are also sufficient: they are the axes along which a box and a line can
+/// be separated.) Each compares two numbers that are not negative where it matters, off by at most 4.6e of the slope, e
+/// of the plane, e of the product, and flushed parts: (2^-84 + 2f) 2^29 < 2^-54. In sum less than 16e and 2^-53;
+/// allowed are 32e and 2^-50.
 GN_FN GN_BOOL gn_may_touch(GN_TYPE(GnRay) ray, GN_VEC3 lo, GN_VEC3 hi) {
     GN_FLOAT first = gn_max(lo.z, GN_FLOAT(0.0));
     GN_FLOAT last = gn_min(hi.z, ray.end);
@@ -168,8 +171,9 @@ GN_FN GN_BOOL gn_may_touch(GN_TYPE(GnRay) ray, GN_VEC3 lo, GN_VEC3 hi) {
            left_of <= left && right_of <= right;
 }
 
-/// What the bits tell of a segment that does not move along x or y, and a triangle: where a corner has the start's x, x' is
-/// exactly 0 there, and a side of two such corners is 0. So it is at the edges of boxes below a sun straight above.
+/// What the bits tell of a segment that does not move along x or y, and a triangle: where a corner has the start's x,
+/// x' is exactly 0 there, and a side of two such corners is 0. So it is at the edges of boxes below a sun straight
+/// above.
 GN_FN GN_TYPE(GnTies) gn_ties(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VEC3 c) {
     GN_BOOL ax = ray.flat_x && gn_same(a.x, ray.start.x);
     GN_BOOL bx = ray.flat_x && gn_same(b.x, ray.start.x);
@@ -185,20 +189,22 @@ GN_FN GN_TYPE(GnTies) gn_ties(GN_TYPE(GnRay) ray, GN_VEC3 a, GN_VEC3 b, GN_VEC3 
     return ties;
 }
 
-/// Whether the segment meets the triangle whose corners these are, in the frame's order: whether its ends lie strictly on opposite sides of
-/// the plane and the line passes the closed interior.
+/// Whether the segment meets the triangle whose corners these are, in the frame's order: whether its ends lie strictly
+/// on opposite sides of the plane and the line passes the closed interior.
 ///
 /// In the frame, and sheared, so that the segment is the z axis: q = slope z, x' = x - q. Errors, in computed numbers:
-///     x:   1.001e |x| + 4f                 q: (4.6 + 1 + 1)e |q| + 2^-84 |z| + 6f, second order included: 6.72e |q| + 2^-54.8
-///     x':  2.01e |x| + 7.73e |q| + 2^-54.7 (sun: 5.6e |q|), below E = max over corners of 2.125e |x| + slope_error |q| + 2^-54
-///     u = x1' y2' - y1' x2', with M the largest |x'|, |y'|:  4 M E + 2 E^2 + 4.01e M^2 + 3f, below
+///     x:   1.001e |x| + 4f                 q: (4.6 + 1 + 1)e |q| + 2^-84 |z| + 6f, second order included: 6.72e |q| +
+///     2^-54.8 x':  2.01e |x| + 7.73e |q| + 2^-54.7 (sun: 5.6e |q|), below E = max over corners of 2.125e |x| +
+///     slope_error |q| + 2^-54 u = x1' y2' - y1' x2', with M the largest |x'|, |y'|:  4 M E + 2 E^2 + 4.01e M^2 + 3f,
+///     below
 ///         B = 4 E (M + E) + 4.25e M^2 + 2^-100
 ///     total = u + v + w:   3 B + 10.1e M^2 < 5.4 B, as e M^2 < B / 4.25
 ///     T = u z0 + v z1 + w z2, with Z the largest |z|, plus 2^-60 for what is flushed:
 ///         3 (B Z + 2.01e M^2 Z + 2.01e M^2 Z) + 10.1e M^2 Z < 8.3 B Z
 ///     end total - T:       (5.4 B + 3 * 6.01e M^2) end + (8.3 B + 6.1e M^2) Z < 9.75 B (end + Z)
 /// The constants below are at least 2 % above these; what computing them rounds is less, and 2^-100 stands for what it
-/// flushes. If all sides are certainly of one sign, or certainly 0 but for one, the line passes the triangle at z = T / total.
+/// flushes. If all sides are certainly of one sign, or certainly 0 but for one, the line passes the triangle at z = T /
+/// total.
 GN_FN GN_TYPE(GnMeeting) gn_meet(GN_TYPE(GnRay) ray, GN_VEC3 corner_a, GN_VEC3 corner_b, GN_VEC3 corner_c) {
     GN_TYPE(GnTies) ties = gn_ties(ray, corner_a, corner_b, corner_c);
     GN_VEC3 a = gn_in_frame(ray, corner_a);
@@ -262,9 +268,10 @@ GN_FN GN_INT gn_plane_side(GN_VEC3 a, GN_VEC3 b, GN_VEC3 c, GN_VEC3 target, GN_B
     GN_BOOL flat_x = gn_same(target.x, GN_SELECT(is_point, a.x, GN_FLOAT(0.0)));
     GN_BOOL flat_y = gn_same(target.y, GN_SELECT(is_point, a.y, GN_FLOAT(0.0)));
     GN_BOOL flat_z = gn_same(target.z, GN_SELECT(is_point, a.z, GN_FLOAT(0.0)));
-    GN_BOOL within = gn_holds_direction(a, b, c, flat_x, flat_y) ||
-                     gn_holds_direction(GN_VEC3(a.y, a.z, a.x), GN_VEC3(b.y, b.z, b.x), GN_VEC3(c.y, c.z, c.x), flat_y, flat_z) ||
-                     gn_holds_direction(GN_VEC3(a.z, a.x, a.y), GN_VEC3(b.z, b.x, b.y), GN_VEC3(c.z, c.x, c.y), flat_z, flat_x);
+    GN_BOOL within =
+        gn_holds_direction(a, b, c, flat_x, flat_y) ||
+        gn_holds_direction(GN_VEC3(a.y, a.z, a.x), GN_VEC3(b.y, b.z, b.x), GN_VEC3(c.y, c.z, c.x), flat_y, flat_z) ||
+        gn_holds_direction(GN_VEC3(a.z, a.x, a.y), GN_VEC3(b.z, b.x, b.y), GN_VEC3(c.z, c.x, c.y), flat_z, flat_x);
     GN_PRECISE GN_VEC3 p = b - a;
     GN_PRECISE GN_VEC3 q = c - a;
     GN_PRECISE GN_FLOAT dx = target.x - GN_SELECT(is_point, a.x, GN_FLOAT(0.0));
