@@ -6,6 +6,7 @@
 
 #include <gnomon/backend/item.glsl>
 #include <gnomon/trace/formula/mask.glsl>
+#include <gnomon/trace/formula/own_plane.glsl>
 
 layout(local_size_x = 64) in;
 

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The ray's formulas for ray_parity.test.cpp: 20 words in (corners, start, end, eye, flags), 4 out.
-#include <gnomon/trace/formula/ray.glsl>
+#include <gnomon/trace/formula/own_plane.glsl>
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Inputs { uvec4 inputs[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Outputs { uint outputs[]; };

@@ -2,7 +2,7 @@
 // The question of this module as a GPU asks it: in float, with a third answer. What is not `unsure` is the exact
 // answer, whatever the device rounds and flushes; the few that are unsure go to `is_blocked`.
 //
-// The formulas, and the proof of their bounds, are in formula/ray.glsl and formula/mask.glsl, which shaders include;
+// The formulas, and the proof of their bounds, are in formula/*.glsl, which shaders include;
 // here they are C++, over any scalar type. On the CPU `is_blocked` is faster: this is what a shader is tested against.
 
 #include <gnomon/core/id.hpp>
@@ -10,6 +10,7 @@
 #include <gnomon/trace/alpha.hpp>
 #include <gnomon/trace/bvh.hpp>
 #include <gnomon/trace/formula/mask.glsl>
+#include <gnomon/trace/formula/own_plane.glsl>
 #include <gnomon/trace/segment.hpp>
 
 #include <algorithm>
