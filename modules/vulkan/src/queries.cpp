@@ -149,10 +149,17 @@ VkPipeline SampleQueries::pipeline(backend::DepthFormat format, backend::DepthRa
     return pipelines_[place_of_query(format, range)].get();
 }
 
-/// Queries [0, count) in renderings of `capacity_`; draw(i) records what query i counts.
+/// Queries [0, count), in renderings of `capacity_`; draw(i) records what query i counts.
+struct SampleQueries::Batches {
+    std::uint32_t count;
+    Target& target;
+    std::uint32_t layer;
+    CountsOut out;
+};
+
 template <class Draw>
-void SampleQueries::record_batches(VkCommandBuffer commands, std::uint32_t count, Target& target, std::uint32_t layer,
-                                   CountsOut const& out, Draw draw) {
+void SampleQueries::record_batches(VkCommandBuffer commands, Batches const& batches, Draw draw) {
+    auto const& [count, target, layer, out] = batches;
     target.prepare(commands, TargetUse::count);
     detail::Rendering rendering;
     rendering.depth = target.depth_view_of(layer);
@@ -191,7 +198,8 @@ Result<core::Done> SampleQueries::record_boxes(VkCommandBuffer commands, std::sp
     BoxPush push = push_of(view);
     gpu_->call.CmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
     constexpr std::uint32_t corners_at = offsetof(BoxPush, lo);
-    record_batches(commands, static_cast<std::uint32_t>(boxes.size()), target, view.layer, out, [&](std::uint32_t i) {
+    Batches const batches{static_cast<std::uint32_t>(boxes.size()), target, view.layer, out};
+    record_batches(commands, batches, [&](std::uint32_t i) {
         math::Aabb const& box = boxes[i];
         if (math::is_empty(box) || has_nan(box)) return;
         for (math::axis_t axis = 0; axis < 3; ++axis) {
@@ -239,7 +247,7 @@ Result<core::Done> SampleQueries::record_draws(VkCommandBuffer commands, DrawLis
         gpu_->call.CmdDrawIndexed(commands, c.corners, c.instances, list.first_index() + c.first_index,
                                   static_cast<std::int32_t>(c.first_position), c.first_item);
     };
-    record_batches(commands, static_cast<std::uint32_t>(list.positions.size()), target, view.layer, out, draw);
+    record_batches(commands, {static_cast<std::uint32_t>(list.positions.size()), target, view.layer, out}, draw);
     return core::Done{};
 }
 

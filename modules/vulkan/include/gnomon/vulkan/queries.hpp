@@ -52,9 +52,9 @@ class SampleQueries {
 
   private:
     [[nodiscard]] VkPipeline pipeline(backend::DepthFormat format, backend::DepthRange range) const noexcept;
+    struct Batches;
     template <class Draw>
-    void record_batches(VkCommandBuffer commands, std::uint32_t count, Target& target, std::uint32_t layer,
-                        CountsOut const& out, Draw draw);
+    void record_batches(VkCommandBuffer commands, Batches const& batches, Draw draw);
 
     GpuRef gpu_;
     std::uint32_t capacity_ = 0;
