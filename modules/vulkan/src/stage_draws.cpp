@@ -192,7 +192,7 @@ float least_alpha(double factor, double cutoff) noexcept {
         float const at = middle > low && middle < high ? middle : std::nextafter(low, high);
         (passes(static_cast<double>(at)) ? high : low) = at;
     }
-    return high;
+    return high < 0x1p-100F ? 0x1p-100F : high;  // Devices may take denormals for 0.
 }
 
 Result<StagedDraws> stage_draws(std::span<backend::Draw const> draws, bool alpha_tests) {

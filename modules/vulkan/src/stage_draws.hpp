@@ -32,7 +32,7 @@ struct StagedDraws {
 [[nodiscard]] Result<StagedDraws> stage_draws(std::span<backend::Draw const> draws, bool alpha_tests);
 
 /// The least float s in [0, 255] with s / 255 * factor >= cutoff in double; +infinity where none passes, -1 where all
-/// do.
+/// do; never below 2^-100.
 [[nodiscard]] float least_alpha(double factor, double cutoff) noexcept;
 
 }  // namespace gnomon::vulkan::detail

@@ -1,0 +1,305 @@
+// Passes on hard cases: alpha tests, bad data, moved positions, depth bias, devices that run out of memory.
+
+#include "allocations.hpp"
+#include "null_driver.hpp"
+#include "pass_rig.hpp"
+#include "pass_scenes.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/raster/alpha_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+using namespace gnomon;
+using namespace gnomon::vulkan::test;
+
+namespace {
+
+/// A quad that fills the view at a slant, its texture repeated a few times.
+struct Leaf {
+    std::array<math::vec3, 4> positions{math::vec3(-1.2F, -1.1F, -2), math::vec3(1.3F, -1, -2.5F),
+                                        math::vec3(1.2F, 1.4F, -4), math::vec3(-1.4F, 1.2F, -3)};
+    std::array<math::vec2, 4> uv{math::vec2(-0.7F, -0.3F), math::vec2(1.9F, 0.1F), math::vec2(2.2F, 1.6F), math::vec2(-0.2F, 1.3F)};
+    std::array<std::uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
+    std::vector<std::uint8_t> texels;
+    backend::AlphaTest test;
+
+    Leaf(std::uint64_t seed, math::ivec2 size_px, math::Wrap wrap, std::int32_t channels) {
+        Random random{seed};
+        auto const count = static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y);
+        for (std::size_t i = 0; i < count * static_cast<std::size_t>(channels); ++i)
+            texels.push_back(static_cast<std::uint8_t>(random.next() >> 56U));
+        test.uv = std::span<math::vec2 const>(uv);
+        test.texture = {texels, size_px, wrap, wrap == math::Wrap::repeat ? math::Wrap::mirror : wrap, channels};
+        test.factor = 0.9;
+        test.cutoff = 0.4;
+    }
+    [[nodiscard]] backend::Draw draw() const {
+        return {.positions = std::span<math::vec3 const>(positions),
+                .indices = std::span<std::uint32_t const>(indices),
+                .alpha_test = &test};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("alpha tests decide as the CPU does, but where float and double see other sides of the cutoff", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::Features few = device->features();
+    few.geometry_shader = few.layer_from_vertex_shader = few.depth_clamp = false;
+    std::uint64_t pixels = 0;
+    std::uint64_t differ = 0;
+    for (vulkan::Features const& features : {device->features(), few}) {
+        PassRig rig(*device, device->gpu_with(features));
+        for (int i = 0; i < 6; ++i) {
+            Leaf const leaf(static_cast<std::uint64_t>(i), {13 + 7 * i, 9 + 5 * i}, static_cast<math::Wrap>(i % 3), i % 2 == 0 ? 4 : 1);
+            Leaf const behind(40, {16, 16}, math::Wrap::clamp, 4);
+            std::array<backend::Draw, 2> draws{leaf.draw(), behind.draw()};
+            draws[1].first_triangle = 2;
+            backend::TargetConfig const config{.size_px = {200, 200}, .triangle_ids = i < 3};
+            backend::PassLayer layer = layer_of(camera(config.size_px));
+            layer.range = i % 2 == 0 ? backend::DepthRange::clamp : backend::DepthRange::clip;
+            std::vector<std::vector<backend::PassLayer>> const passes{{layer}};
+            Pixels const cpu = draw_on_cpu(draws, config, passes);
+            Difference const d = difference_of(cpu, rig.draw_all(draws, config, passes), 0.0F);
+            INFO(d.text());
+            CHECK(d.covered > 5000);
+            CHECK(d.beyond == 0);
+            pixels += d.covered;
+            differ += d.coverage + d.other_surface + d.other_id;
+        }
+    }
+    INFO(std::to_string(differ) + " of " + std::to_string(pixels));
+    CHECK(differ <= pixels / 4000);
+    CHECK(device->live().total() == 0);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("alpha at the cutoff passes, a hair below it does not", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    PassRig rig(*device, device->gpu());
+    for (int alpha : {0, 1, 77, 128, 254, 255})
+        for (int beside : {-1, 0, 1}) {
+            Leaf leaf(1, {4, 4}, math::Wrap::repeat, 1);
+            std::fill(leaf.texels.begin(), leaf.texels.end(), static_cast<std::uint8_t>(alpha));
+            leaf.test.factor = 0.75;
+            double const at = alpha / 255.0 * 0.75;
+            leaf.test.cutoff = beside == 0 ? at : std::nextafter(static_cast<float>(at), beside > 0 ? 2.0F : -1.0F);
+            backend::Draw const draw = leaf.draw();
+            backend::TargetConfig const config{.size_px = {32, 32}};
+            Pixels const drawn = rig.draw_all({&draw, 1}, config, std::vector<std::vector<backend::PassLayer>>{{layer_of(camera(config.size_px))}});
+            bool const covers = std::any_of(drawn.depth.begin(), drawn.depth.end(), [](float z) { return z != 0.0F; });
+            INFO(std::to_string(alpha) + " " + std::to_string(beside));
+            CHECK(covers == (at >= leaf.test.cutoff));
+        }
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("bad data is left out and counted, and changes nothing else", "[vulkan][draws]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    PassRig rig(*device, device->gpu());
+    Soup soup = make_soup(3, 100, 0.8F);
+    soup.indices[10] = 100000;
+    soup.indices[31] = 0xFFFFFFFFU;
+    soup.positions[soup.indices[60]].y = std::numeric_limits<float>::quiet_NaN();
+    soup.positions[soup.indices[90]].x = std::numeric_limits<float>::infinity();
+    soup.positions[soup.indices[120]].z = 1e30F;
+    soup.indices.push_back(1);
+    Soup const other = make_soup(4, 20, 0.8F);
+    backend::AlphaTest const broken;
+    std::vector<std::uint16_t> const narrow{0, 1, 2, 3, 4, 5};
+    std::array<backend::Draw, 5> draws{soup.draw(), other.draw(), other.draw(), backend::Draw{}, soup.draw()};
+    draws[1].alpha_test = &broken;
+    draws[2].indices = std::span<std::uint16_t const>(narrow);
+    draws[2].first_triangle = 77;
+    draws[4].positions = {};
+    backend::TargetConfig const config{.size_px = {120, 120}, .triangle_ids = true};
+    std::vector<std::vector<backend::PassLayer>> const passes{{layer_of(camera(config.size_px))}};
+    Difference const d = difference_of(draw_on_cpu(draws, config, passes), rig.draw_all(draws, config, passes), 0.0F);
+    INFO(d.text());
+    CHECK(d.covered > 3000);
+    CHECK(d.coverage + d.other_surface + d.other_id + d.beyond <= 2);
+    vulkan::DrawList const list = rig.keep(draws);
+    CHECK(list.faults().bad_index_triangles == 2 + 100);
+    CHECK(list.faults().not_finite_triangles >= 2);
+    CHECK(list.faults().loose_indices == 2);
+    CHECK(list.faults().broken_alpha_tests == 1);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("moved positions are drawn where they went", "[vulkan][draws]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    PassRig rig(*device, device->gpu());
+    Soup soup = make_soup(3, 80, 0.8F);
+    Soup const still = make_soup(8, 30, 0.8F);
+    std::array<backend::Draw, 2> draws{soup.draw(), still.draw()};
+    backend::TargetConfig const config{.size_px = {120, 120}};
+    std::vector<std::vector<backend::PassLayer>> const passes{{layer_of(camera(config.size_px))}};
+    vulkan::DrawList list = rig.keep(draws);
+    vulkan::Target target = rig.make(config);
+    auto ring = vulkan::HostRing::make(rig.gpu(), {.bytes_per_frame = 4096, .frames = 2});
+    REQUIRE(ring);
+    for (std::uint64_t frame = 0; frame < 5; ++frame) {
+        for (math::vec3& p : soup.positions) p = p + math::vec3(0.1F, -0.05F, 0.03F);
+        REQUIRE(ring->begin_frame({frame, frame}));
+        VkCommandBuffer commands = device->begin();
+        auto const moved = vulkan::record_update(commands, list, 0, std::span<math::vec3 const>(soup.positions), *ring);
+        REQUIRE(moved);
+        CHECK(*moved == 0);
+        REQUIRE(vulkan::record_pass(commands, list, target, passes[0]));
+        CHECK(vulkan::record_update(commands, list, 2, std::span<math::vec3 const>(soup.positions), *ring).failure().code ==
+              vulkan::Error::bad_argument);
+        CHECK(vulkan::record_update(commands, list, 0, std::span<math::vec3 const>(soup.positions), *ring).failure().code ==
+              vulkan::Error::too_large);
+        REQUIRE(ring->flush());
+        device->submit_and_wait();
+        Difference const d = difference_of(draw_on_cpu(draws, config, passes), rig.read(target), 0.0F);
+        INFO(d.text());
+        CHECK(d.covered > 1000);
+        CHECK(d.coverage + d.other_surface + d.beyond <= 2);
+    }
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("a positive bias moves depths away from the eye, by steps and by slope", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    std::array<math::vec3, 3> const corners{math::vec3(-3, -3, 0), math::vec3(3, -3, 0), math::vec3(0, 3, 0)};
+    backend::Draw const draw{.positions = std::span<math::vec3 const>(corners), .indices = {}};
+    vulkan::Features no_clamp = device->features();
+    no_clamp.depth_clamp = false;
+    for (vulkan::Features const& features : {device->features(), no_clamp}) {
+        PassRig rig(*device, device->gpu_with(features));
+        vulkan::DrawList list = rig.keep({&draw, 1});
+        vulkan::Target target = rig.make({.size_px = {64, 64}});
+        for (math::Depth depth : {math::Depth::reversed, math::Depth::forward})
+            for (backend::DepthRange range : {backend::DepthRange::clip, backend::DepthRange::clamp}) {
+                // z = 0.6 + x / 8: a step of 1/256 a pixel, in the power of two [0.5, 1).
+                backend::PassLayer layer;
+                layer.depth = depth;
+                layer.range = range;
+                layer.clip_from_relative[0][2] = 0.125F;
+                layer.clip_from_relative[3][2] = 0.75F;
+                auto const middle = [&](vulkan::DepthBias const& bias) {
+                    rig.draw(list, target, {&layer, 1}, bias);
+                    return static_cast<double>(rig.read(target).depth[32 * 64 + 32]);
+                };
+                double const away = depth == math::Depth::reversed ? -1.0 : 1.0;
+                double const plain = middle({});
+                double const stepped = (middle({.constant = 1000.0F}) - plain) * away;
+                double const sloped = (middle({.slope = 2.0F}) - plain) * away;
+                CHECK(std::abs(stepped - 1000.0 * 0x1p-24) <= 1e-6);
+                CHECK(std::abs(sloped - 2.0 / 256.0) <= 1e-6);
+            }
+    }
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("whichever call fails, a list, a target, the pipelines and the queries leave nothing behind", "[vulkan][draws]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    Soup const soup = make_soup(3, 10, 0.8F);
+    backend::Draw const draw = soup.draw();
+    vulkan::GpuRef const gpu = device->gpu_with({});
+    auto const pipelines = vulkan::make_pass_pipelines(gpu, {});
+    REQUIRE(pipelines);
+    std::int64_t const before = device->live().total();
+    auto const fails_everywhere = [&](auto make) {
+        for (std::uint64_t n = 0;; ++n) {
+            std::uint64_t const calls = device->live().calls;
+            device->fail_call(n, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+            auto const made = make();
+            if (made) {
+                device->fail_call(0, VK_SUCCESS);
+                CHECK(n >= 6);
+                return;
+            }
+            CHECK(made.failure().code == vulkan::Error::out_of_device_memory);
+            CHECK(device->live().calls == calls + n + 1);
+            CHECK(device->live().total() == before);
+        }
+    };
+    fails_everywhere([&] { return vulkan::make_draw_list(*pipelines, {&draw, 1}); });
+    fails_everywhere([&] { return vulkan::make_target(gpu, {.size_px = {8, 8}, .layers = 3, .triangle_ids = true}); });
+    fails_everywhere([&] { return vulkan::make_pass_pipelines(gpu, {.unorm16 = false}); });
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("what cannot be recorded is refused with the reason, and nothing is recorded", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    PassRig rig(*device, device->gpu(), {.unorm16 = false, .clamp = false});
+    Soup const soup = make_soup(3, 10, 0.8F);
+    backend::Draw const draw = soup.draw();
+    vulkan::DrawList list = rig.keep({&draw, 1});
+    vulkan::Target target = rig.make({.size_px = {8, 8}, .layers = 2});
+    vulkan::Target codes = rig.make({.size_px = {8, 8}, .depth = backend::DepthFormat::unorm16});
+    backend::PassLayer layer;
+    VkCommandBuffer commands = device->begin();
+    CHECK(vulkan::record_pass(commands, list, codes, {&layer, 1}).failure().message.find("unorm16") != std::string::npos);
+    layer.range = backend::DepthRange::clamp;
+    CHECK(vulkan::record_pass(commands, list, target, {&layer, 1}).failure().message.find("clamp") != std::string::npos);
+    layer.range = backend::DepthRange::clip;
+    layer.layer = 2;
+    CHECK(vulkan::record_pass(commands, list, target, {&layer, 1}).failure().code == vulkan::Error::bad_argument);
+    layer.layer = 0;
+    layer.viewport = backend::Rect{0, 0, 1 << 20, 5};
+    CHECK(vulkan::record_pass(commands, list, target, {&layer, 1}).failure().code == vulkan::Error::too_large);
+    CHECK(target.layout() == VK_IMAGE_LAYOUT_UNDEFINED);
+    CHECK(!vulkan::make_draw_list(rig.pipelines(), {&draw, 1}, {.max_layers = 0}));
+    device->submit_and_wait();
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("recording a frame allocates nothing; its calls do not depend on the number of draws", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::GpuRef const gpu = null_gpu(device->gpu()->properties, device->features());
+    auto const pipelines = vulkan::make_pass_pipelines(gpu);
+    REQUIRE(pipelines);
+    Soup const soup = make_soup(3, 10, 0.8F);
+    std::vector<math::mat4> places(3, math::mat4(1.0F));
+    std::uint64_t calls_of[2] = {};
+    std::string times;
+    for (std::size_t n : {std::size_t{12}, std::size_t{3000}}) {
+        std::vector<backend::Draw> draws(n, soup.draw());
+        for (std::size_t i = 0; i < n; ++i) {
+            draws[i].cull = static_cast<backend::Cull>(i % 3);
+            if (i % 5 == 0) draws[i].instances = core::StridedSpan<math::mat4>(std::span<math::mat4 const>(places));
+        }
+        auto list = vulkan::make_draw_list(*pipelines, draws);
+        auto target = vulkan::make_target(gpu, {.size_px = {64, 64}, .layers = 6});
+        REQUIRE(list);
+        REQUIRE(target);
+        std::vector<backend::PassLayer> layers(6);
+        for (std::uint32_t i = 0; i < 6; ++i) layers[i].layer = i;
+        VkCommandBuffer const commands = VK_NULL_HANDLE;
+        std::uint64_t const before = allocations_made();
+        std::uint64_t const makes = null_driver::counts.makes;
+        auto const start = std::chrono::steady_clock::now();
+        std::uint64_t calls = 0;
+        for (int frame = 0; frame < 1000; ++frame) {
+            auto const counts = vulkan::record_pass(commands, *list, *target, layers);
+            calls += counts ? counts->draw_calls : 0;
+            target->prepare(commands, vulkan::TargetUse::sample);
+        }
+        double const us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count() / 1000;
+        CHECK(allocations_made() == before);
+        CHECK(null_driver::counts.makes == makes);
+        calls_of[n > 12 ? 1 : 0] = calls / 1000;
+        CHECK(us < 1000.0);
+        times += std::to_string(n) + " draws into 6 layers: " + std::to_string(us) + " us; ";
+    }
+    std::printf("recording a pass of %s\n", times.c_str());
+    CHECK(calls_of[0] == 3);
+    CHECK(calls_of[1] == 3);
+}
