@@ -6,14 +6,6 @@
 
 namespace gnomon::vulkan {
 
-namespace {
-
-core::Failure<backend::Error> a_million_live(std::string_view verb) {
-    return {backend::Error::out_of_memory, std::string(verb) + ": a million things live: release some"};
-}
-
-}  // namespace
-
 Backend::Backend(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 Backend::~Backend() = default;
 

@@ -43,6 +43,7 @@ Result<VkCommandBuffer> Backend::State::commands() {
     if (given == VK_NULL_HANDLE) return core::Failure{Error::bad_argument, "Host::begin gave no command buffer"};
     open = given;
     order.all();  // after the frame before
+    order.apply(*gpu, open);
     return open;
 }
 
@@ -59,6 +60,11 @@ Result<core::Done> Backend::State::submit() {
     open = VK_NULL_HANDLE;
     ++count.recording;
     count.finished = count.recording;
+    for (backend::DrawListId const id : uploading)
+        if (DrawList* const list = lists.find(id)) list->release_staging();
+    uploading.clear();
+    retired_lists.clear();
+    retired_targets.clear();
     retired_buffers.clear();
     return core::Done{};
 }
@@ -100,6 +106,21 @@ Result<ComputeKernel const*> Backend::State::compiled(backend::Kernel const& ker
     if (!made) return std::move(made).failure();
     kernels.push_back({&kernel, *std::move(made)});
     return &kernels.back().compute;
+}
+
+Result<PassPipelinesRef> Backend::State::passes() {
+    if (pass_pipelines != nullptr) return pass_pipelines;
+    auto made = make_pass_pipelines(gpu);
+    if (made) pass_pipelines = *made;
+    return made;
+}
+
+Result<SampleQueries*> Backend::State::counting() {
+    if (queries) return &*queries;
+    auto made = SampleQueries::make(gpu);
+    if (!made) return std::move(made).failure();
+    queries.emplace(*std::move(made));
+    return &*queries;
 }
 
 Result<HostSlice> Backend::State::take_read(std::span<std::byte> out) {

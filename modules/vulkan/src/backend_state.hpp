@@ -7,6 +7,8 @@
 #include <gnomon/backend/slots.hpp>
 #include <gnomon/vulkan/barrier.hpp>
 #include <gnomon/vulkan/kernel.hpp>
+#include <gnomon/vulkan/pass.hpp>
+#include <gnomon/vulkan/queries.hpp>
 #include <gnomon/vulkan/read_back.hpp>
 #include <gnomon/vulkan/staging.hpp>
 #include <gnomon/vulkan/timestamps.hpp>
@@ -49,6 +51,10 @@ struct Backend::State {
     /// Keeps a failure that ends the backend.
     core::Failure<Error> end(core::Failure<Error> failure);
     [[nodiscard]] Result<ComputeKernel const*> compiled(backend::Kernel const& kernel);
+    /// Made when the first list is kept.
+    [[nodiscard]] Result<PassPipelinesRef> passes();
+    /// Made when the first samples are counted.
+    [[nodiscard]] Result<SampleQueries*> counting();
     /// A slice to read back into, and the promise to do so.
     [[nodiscard]] Result<HostSlice> take_read(std::span<std::byte> out);
     /// Destroyed at once where nothing is recorded, else when the frame has finished.
@@ -69,16 +75,34 @@ struct Backend::State {
     std::optional<core::Failure<Error>> ended;
     std::optional<core::Failure<Error>> stage_failure;
 
+    PassPipelinesRef pass_pipelines;
+    std::optional<SampleQueries> queries;
+    backend::Slots<backend::DrawListId, DrawList> lists;
+    backend::Slots<backend::TargetId, Target> targets;
     backend::Slots<backend::BufferId, KeptBuffer> buffers;
     std::vector<CompiledKernel> kernels;
     std::vector<PendingRead> reads;
+    std::vector<backend::DrawListId> uploading;  ///< Kept in this frame: their staging goes when it has finished.
+    std::vector<DrawList> retired_lists;
+    std::vector<Target> retired_targets;
     std::vector<KeptBuffer> retired_buffers;
     std::vector<backend::StageTime> times;
 };
 
-/// A vulkan result as a backend result, the value left out.
-[[nodiscard]] inline core::Failure<backend::Error> refused(core::Failure<Error> const& failure) {
-    return to_backend(failure);
+[[nodiscard]] inline core::Failure<backend::Error> a_million_live(std::string_view verb) {
+    return {backend::Error::out_of_memory, std::string(verb) + ": a million things live: release some"};
+}
+
+/// The image of a target's plane.
+struct PlaneImage {
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkImageAspectFlags aspect = 0;
+};
+[[nodiscard]] inline PlaneImage image_of(Target const& target, backend::Plane plane) noexcept {
+    if (plane == backend::Plane::triangle)
+        return {target.triangle_image(), target.triangle_view(), VK_IMAGE_ASPECT_COLOR_BIT};
+    return {target.depth_image(), target.depth_view(), VK_IMAGE_ASPECT_DEPTH_BIT};
 }
 
 }  // namespace gnomon::vulkan

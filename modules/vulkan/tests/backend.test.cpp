@@ -1,4 +1,4 @@
-#include "affine_kernel.hpp"
+#include "test_kernels.hpp"
 #include "allocations.hpp"
 #include "null_driver.hpp"
 #include "test_host.hpp"

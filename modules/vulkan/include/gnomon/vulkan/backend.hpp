@@ -3,6 +3,7 @@
 
 #include <gnomon/backend/verbs.hpp>
 #include <gnomon/math/bounds.hpp>
+#include <gnomon/vulkan/draws.hpp>
 #include <gnomon/vulkan/gpu.hpp>
 
 #include <cstddef>
@@ -62,7 +63,9 @@ class Backend final : public backend::Backend {
     backend::Result<core::Done> read(backend::TargetPart const& part, std::span<std::byte> out) override;
     backend::Result<std::span<backend::StageTime const>> finish() override;
 
-    /// Barriers recorded so far, of all frames.
+    /// What a list that lives left out when it was kept; nothing for an unknown id.
+    [[nodiscard]] StagedFaults faults(backend::DrawListId list) const noexcept;
+    /// Barriers between verbs over buffers recorded so far, of all frames.
     [[nodiscard]] std::uint64_t barriers() const noexcept;
 
     struct State;

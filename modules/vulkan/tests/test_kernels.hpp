@@ -1,9 +1,10 @@
 #pragma once
-// A small kernel with both halves, for the tests of backends.
+// Small kernels with both halves, for the tests of backends.
 
 #include <gnomon/backend/kernel.hpp>
 
 #include "shaders/affine_comp.hpp"
+#include "shaders/covered_comp.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +32,29 @@ inline constexpr backend::Kernel affine_kernel{
     .buffers = 2,
     .targets = 0,
     .constant_bytes = sizeof(Affine),
+};
+
+struct Covered {
+    std::uint32_t width;
+    std::uint32_t height;
+    std::uint32_t layer;
+};
+
+/// Buffer 0 [i] = whether pixel i of a layer of target 0 holds another depth than 0.
+inline constexpr backend::Kernel covered_kernel{
+    .name = "covered",
+    .cpu =
+        [](backend::KernelData const& data, std::size_t begin, std::size_t end) {
+            auto const covered = data.constant<Covered>();
+            std::span<std::uint32_t> const out = data.buffer<std::uint32_t>(0);
+            float const* const depth = data.targets[0].layer<float>(covered.layer);
+            for (std::size_t i = begin; i < end && i < std::size_t{covered.width} * covered.height; ++i)
+                out[i] = depth[i] != 0.0F ? 1U : 0U;
+        },
+    .spirv = covered_comp,
+    .buffers = 1,
+    .targets = 1,
+    .constant_bytes = sizeof(Covered),
 };
 
 }  // namespace gnomon::vulkan::test
