@@ -13,6 +13,9 @@
 #include <concepts>
 #include <cstdint>
 
+// Inlined for certain, as math::Lanes is.
+#define GNOMON_OP [[gnu::always_inline]] friend constexpr
+
 namespace gnomon::formula {
 
 // The same for all lanes.
@@ -41,47 +44,47 @@ struct Bool {
 
     constexpr Bool() noexcept = default;
     template <detail::OneOf<Type, bool> X>
-    constexpr Bool(X const& x) noexcept : v(detail::spread<Type>(x)) {}
+    [[gnu::always_inline]] constexpr Bool(X const& x) noexcept : v(detail::spread<Type>(x)) {}
 
     // No short cut: both sides are computed, as in every lane.
-    friend constexpr Bool operator&&(Bool const& a, Bool const& b) noexcept { return detail::both(a.v, b.v); }
-    friend constexpr Bool operator||(Bool const& a, Bool const& b) noexcept { return detail::either(a.v, b.v); }
-    friend constexpr Bool operator!(Bool const& a) noexcept { return detail::inverted(a.v); }
-    friend constexpr bool gn_any(Bool const& a) noexcept { return detail::is_any(a.v); }
+    GNOMON_OP Bool operator&&(Bool const& a, Bool const& b) noexcept { return detail::both(a.v, b.v); }
+    GNOMON_OP Bool operator||(Bool const& a, Bool const& b) noexcept { return detail::either(a.v, b.v); }
+    GNOMON_OP Bool operator!(Bool const& a) noexcept { return detail::inverted(a.v); }
+    GNOMON_OP bool gn_any(Bool const& a) noexcept { return detail::is_any(a.v); }
 
-    friend constexpr Float<S> gn_select(Bool const& m, Float<S> const& yes, Float<S> const& no) noexcept {
+    GNOMON_OP Float<S> gn_select(Bool const& m, Float<S> const& yes, Float<S> const& no) noexcept {
         return detail::chosen(m.v, yes.v, no.v);
     }
-    friend constexpr Int<S> gn_select(Bool const& m, Int<S> const& yes, Int<S> const& no) noexcept {
+    GNOMON_OP Int<S> gn_select(Bool const& m, Int<S> const& yes, Int<S> const& no) noexcept {
         return detail::chosen(m.v, yes.v, no.v);
     }
-    friend constexpr Uint<S> gn_select(Bool const& m, Uint<S> const& yes, Uint<S> const& no) noexcept {
+    GNOMON_OP Uint<S> gn_select(Bool const& m, Uint<S> const& yes, Uint<S> const& no) noexcept {
         return detail::chosen(m.v, yes.v, no.v);
     }
-    friend constexpr Bool gn_select(Bool const& m, Bool const& yes, Bool const& no) noexcept {
+    GNOMON_OP Bool gn_select(Bool const& m, Bool const& yes, Bool const& no) noexcept {
         return (m && yes) || (!m && no);
     }
 };
 
-#define GNOMON_FORMULA_COMPARISONS(T)                                                                  \
-    friend constexpr Bool<S> operator<(T const& a, T const& b) noexcept { return {a.v < b.v}; }        \
-    friend constexpr Bool<S> operator<=(T const& a, T const& b) noexcept { return {a.v <= b.v}; }      \
-    friend constexpr Bool<S> operator>(T const& a, T const& b) noexcept { return {a.v > b.v}; }        \
-    friend constexpr Bool<S> operator>=(T const& a, T const& b) noexcept { return {a.v >= b.v}; }      \
-    friend constexpr Bool<S> operator==(T const& a, T const& b) noexcept { return {a.v == b.v}; }      \
-    friend constexpr Bool<S> operator!=(T const& a, T const& b) noexcept { return {a.v != b.v}; }
+#define GNOMON_FORMULA_COMPARISONS(T) \
+    GNOMON_OP Bool<S> operator<(T const& a, T const& b) noexcept { return {a.v < b.v}; } \
+    GNOMON_OP Bool<S> operator<=(T const& a, T const& b) noexcept { return {a.v <= b.v}; } \
+    GNOMON_OP Bool<S> operator>(T const& a, T const& b) noexcept { return {a.v > b.v}; } \
+    GNOMON_OP Bool<S> operator>=(T const& a, T const& b) noexcept { return {a.v >= b.v}; } \
+    GNOMON_OP Bool<S> operator==(T const& a, T const& b) noexcept { return {a.v == b.v}; } \
+    GNOMON_OP Bool<S> operator!=(T const& a, T const& b) noexcept { return {a.v != b.v}; }
 
-#define GNOMON_FORMULA_RING(T)                                                                         \
-    friend constexpr T operator+(T const& a, T const& b) noexcept { return {a.v + b.v}; }              \
-    friend constexpr T operator-(T const& a, T const& b) noexcept { return {a.v - b.v}; }              \
-    friend constexpr T operator*(T const& a, T const& b) noexcept { return {a.v * b.v}; }
+#define GNOMON_FORMULA_RING(T) \
+    GNOMON_OP T operator+(T const& a, T const& b) noexcept { return {a.v + b.v}; } \
+    GNOMON_OP T operator-(T const& a, T const& b) noexcept { return {a.v - b.v}; } \
+    GNOMON_OP T operator*(T const& a, T const& b) noexcept { return {a.v * b.v}; }
 
-#define GNOMON_FORMULA_BITS(T)                                                                         \
-    friend constexpr T operator&(T const& a, T const& b) noexcept { return {a.v & b.v}; }              \
-    friend constexpr T operator|(T const& a, T const& b) noexcept { return {a.v | b.v}; }              \
-    friend constexpr T operator^(T const& a, T const& b) noexcept { return {a.v ^ b.v}; }              \
-    friend constexpr T operator<<(T const& a, int places) noexcept { return {a.v << places}; }         \
-    friend constexpr T operator>>(T const& a, int places) noexcept { return {a.v >> places}; }
+#define GNOMON_FORMULA_BITS(T) \
+    GNOMON_OP T operator&(T const& a, T const& b) noexcept { return {a.v & b.v}; } \
+    GNOMON_OP T operator|(T const& a, T const& b) noexcept { return {a.v | b.v}; } \
+    GNOMON_OP T operator^(T const& a, T const& b) noexcept { return {a.v ^ b.v}; } \
+    GNOMON_OP T operator<<(T const& a, int places) noexcept { return {a.v << places}; } \
+    GNOMON_OP T operator>>(T const& a, int places) noexcept { return {a.v >> places}; }
 
 template <class S>
 struct Int {
@@ -90,17 +93,17 @@ struct Int {
 
     constexpr Int() noexcept = default;
     template <detail::OneOf<Type, std::int32_t> X>
-    constexpr Int(X const& x) noexcept : v(detail::spread<Type>(x)) {}
+    [[gnu::always_inline]] constexpr Int(X const& x) noexcept : v(detail::spread<Type>(x)) {}
     /// Toward zero; expects: it fits.
-    explicit constexpr Int(Float<S> const& x) noexcept : v(detail::converted<Type>(x.v)) {}
-    explicit constexpr Int(Uint<S> const& x) noexcept : v(detail::same_bits<Type>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Int(Float<S> const& x) noexcept : v(detail::converted<Type>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Int(Uint<S> const& x) noexcept : v(detail::same_bits<Type>(x.v)) {}
 
     GNOMON_FORMULA_RING(Int)
     GNOMON_FORMULA_BITS(Int)
     GNOMON_FORMULA_COMPARISONS(Int)
-    friend constexpr Int operator-(Int const& a) noexcept { return {-a.v}; }
-    friend constexpr Int gn_min(Int const& a, Int const& b) noexcept { return gn_select(b < a, b, a); }
-    friend constexpr Int gn_max(Int const& a, Int const& b) noexcept { return gn_select(b > a, b, a); }
+    GNOMON_OP Int operator-(Int const& a) noexcept { return {-a.v}; }
+    GNOMON_OP Int gn_min(Int const& a, Int const& b) noexcept { return gn_select(b < a, b, a); }
+    GNOMON_OP Int gn_max(Int const& a, Int const& b) noexcept { return gn_select(b > a, b, a); }
 };
 
 /// Wraps round at 2^32.
@@ -111,17 +114,17 @@ struct Uint {
 
     constexpr Uint() noexcept = default;
     template <detail::OneOf<Type, std::uint32_t> X>
-    constexpr Uint(X const& x) noexcept : v(detail::spread<Type>(x)) {}
+    [[gnu::always_inline]] constexpr Uint(X const& x) noexcept : v(detail::spread<Type>(x)) {}
     /// Toward zero; expects: it fits.
-    explicit constexpr Uint(Float<S> const& x) noexcept : v(detail::converted<Type>(x.v)) {}
-    explicit constexpr Uint(Int<S> const& x) noexcept : v(detail::same_bits<Type>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Uint(Float<S> const& x) noexcept : v(detail::converted<Type>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Uint(Int<S> const& x) noexcept : v(detail::same_bits<Type>(x.v)) {}
 
     GNOMON_FORMULA_RING(Uint)
     GNOMON_FORMULA_BITS(Uint)
     GNOMON_FORMULA_COMPARISONS(Uint)
-    friend constexpr Uint gn_min(Uint const& a, Uint const& b) noexcept { return gn_select(b < a, b, a); }
-    friend constexpr Uint gn_max(Uint const& a, Uint const& b) noexcept { return gn_select(b > a, b, a); }
-    friend constexpr Float<S> uintBitsToFloat(Uint const& x) noexcept { return detail::same_bits<S>(x.v); }
+    GNOMON_OP Uint gn_min(Uint const& a, Uint const& b) noexcept { return gn_select(b < a, b, a); }
+    GNOMON_OP Uint gn_max(Uint const& a, Uint const& b) noexcept { return gn_select(b > a, b, a); }
+    GNOMON_OP Float<S> uintBitsToFloat(Uint const& x) noexcept { return detail::same_bits<S>(x.v); }
 };
 
 /// A literal, which C++ reads as a double, becomes an S; so does a float that is the same for all lanes.
@@ -133,21 +136,21 @@ struct Float {
 
     constexpr Float() noexcept = default;
     template <detail::OneOf<S, float, double> X>
-    constexpr Float(X const& x) noexcept : v(detail::spread<S>(x)) {}
+    [[gnu::always_inline]] constexpr Float(X const& x) noexcept : v(detail::spread<S>(x)) {}
     template <detail::OneOf<std::int32_t, std::uint32_t> X>
-    explicit constexpr Float(X x) noexcept : v(detail::spread<S>(x)) {}
-    explicit constexpr Float(Int<S> const& x) noexcept : v(detail::converted<S>(x.v)) {}
-    explicit constexpr Float(Uint<S> const& x) noexcept : v(detail::converted<S>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Float(X x) noexcept : v(detail::spread<S>(x)) {}
+    [[gnu::always_inline]] explicit constexpr Float(Int<S> const& x) noexcept : v(detail::converted<S>(x.v)) {}
+    [[gnu::always_inline]] explicit constexpr Float(Uint<S> const& x) noexcept : v(detail::converted<S>(x.v)) {}
 
     GNOMON_FORMULA_RING(Float)
     GNOMON_FORMULA_COMPARISONS(Float)
-    friend constexpr Float operator-(Float const& a) noexcept { return {-a.v}; }
-    friend constexpr Float gn_min(Float const& a, Float const& b) noexcept { return gn_select(b < a, b, a); }
-    friend constexpr Float gn_max(Float const& a, Float const& b) noexcept { return gn_select(b > a, b, a); }
-    friend constexpr Float gn_div(Float const& a, Float const& b) noexcept { return {a.v / b.v}; }
-    friend constexpr Float gn_sqrt(Float const& a) noexcept { return detail::root(a.v); }
-    friend constexpr Float abs(Float const& a) noexcept { return detail::magnitude(a.v); }
-    friend constexpr Uint<S> floatBitsToUint(Float const& a) noexcept {
+    GNOMON_OP Float operator-(Float const& a) noexcept { return {-a.v}; }
+    GNOMON_OP Float gn_min(Float const& a, Float const& b) noexcept { return gn_select(b < a, b, a); }
+    GNOMON_OP Float gn_max(Float const& a, Float const& b) noexcept { return gn_select(b > a, b, a); }
+    GNOMON_OP Float gn_div(Float const& a, Float const& b) noexcept { return {a.v / b.v}; }
+    GNOMON_OP Float gn_sqrt(Float const& a) noexcept { return detail::root(a.v); }
+    GNOMON_OP Float abs(Float const& a) noexcept { return detail::magnitude(a.v); }
+    GNOMON_OP Uint<S> floatBitsToUint(Float const& a) noexcept {
         return detail::same_bits<typename Uint<S>::Type>(a.v);
     }
 };
@@ -161,13 +164,13 @@ struct Vec2 {
     Float<S> x, y;
 
     constexpr Vec2() noexcept = default;
-    constexpr Vec2(Float<S> const& x_, Float<S> const& y_) noexcept : x(x_), y(y_) {}
-    explicit constexpr Vec2(vec2 const& p) noexcept : x(p.x), y(p.y) {}
-    explicit constexpr operator vec2() const noexcept requires std::same_as<S, float> { return vec2(x.v, y.v); }
+    [[gnu::always_inline]] constexpr Vec2(Float<S> const& x_, Float<S> const& y_) noexcept : x(x_), y(y_) {}
+    [[gnu::always_inline]] explicit constexpr Vec2(vec2 const& p) noexcept : x(p.x), y(p.y) {}
+    [[gnu::always_inline]] explicit constexpr operator vec2() const noexcept requires std::same_as<S, float> { return vec2(x.v, y.v); }
 
-    friend constexpr Vec2 operator+(Vec2 const& a, Vec2 const& b) noexcept { return {a.x + b.x, a.y + b.y}; }
-    friend constexpr Vec2 operator-(Vec2 const& a, Vec2 const& b) noexcept { return {a.x - b.x, a.y - b.y}; }
-    friend constexpr Vec2 operator*(Vec2 const& a, Float<S> const& s) noexcept { return {a.x * s, a.y * s}; }
+    GNOMON_OP Vec2 operator+(Vec2 const& a, Vec2 const& b) noexcept { return {a.x + b.x, a.y + b.y}; }
+    GNOMON_OP Vec2 operator-(Vec2 const& a, Vec2 const& b) noexcept { return {a.x - b.x, a.y - b.y}; }
+    GNOMON_OP Vec2 operator*(Vec2 const& a, Float<S> const& s) noexcept { return {a.x * s, a.y * s}; }
 };
 
 template <class S>
@@ -175,14 +178,14 @@ struct Vec3 {
     Float<S> x, y, z;
 
     constexpr Vec3() noexcept = default;
-    constexpr Vec3(Float<S> const& x_, Float<S> const& y_, Float<S> const& z_) noexcept : x(x_), y(y_), z(z_) {}
-    explicit constexpr Vec3(vec3 const& p) noexcept : x(p.x), y(p.y), z(p.z) {}
-    explicit constexpr operator vec3() const noexcept requires std::same_as<S, float> { return vec3(x.v, y.v, z.v); }
+    [[gnu::always_inline]] constexpr Vec3(Float<S> const& x_, Float<S> const& y_, Float<S> const& z_) noexcept : x(x_), y(y_), z(z_) {}
+    [[gnu::always_inline]] explicit constexpr Vec3(vec3 const& p) noexcept : x(p.x), y(p.y), z(p.z) {}
+    [[gnu::always_inline]] explicit constexpr operator vec3() const noexcept requires std::same_as<S, float> { return vec3(x.v, y.v, z.v); }
 
-    friend constexpr Vec3 operator+(Vec3 const& a, Vec3 const& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Vec3 operator-(Vec3 const& a, Vec3 const& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend constexpr Vec3 operator*(Vec3 const& a, Float<S> const& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
-    friend constexpr Vec3 operator-(Vec3 const& a) noexcept { return {-a.x, -a.y, -a.z}; }
+    GNOMON_OP Vec3 operator+(Vec3 const& a, Vec3 const& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    GNOMON_OP Vec3 operator-(Vec3 const& a, Vec3 const& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    GNOMON_OP Vec3 operator*(Vec3 const& a, Float<S> const& s) noexcept { return {a.x * s, a.y * s, a.z * s}; }
+    GNOMON_OP Vec3 operator-(Vec3 const& a) noexcept { return {-a.x, -a.y, -a.z}; }
 };
 
 template <class S>
@@ -190,17 +193,19 @@ struct Vec4 {
     Float<S> x, y, z, w;
 
     constexpr Vec4() noexcept = default;
-    constexpr Vec4(Float<S> const& x_, Float<S> const& y_, Float<S> const& z_, Float<S> const& w_) noexcept
+    [[gnu::always_inline]] constexpr Vec4(Float<S> const& x_, Float<S> const& y_, Float<S> const& z_, Float<S> const& w_) noexcept
         : x(x_), y(y_), z(z_), w(w_) {}
-    explicit constexpr Vec4(vec4 const& p) noexcept : x(p.x), y(p.y), z(p.z), w(p.w) {}
-    explicit constexpr operator vec4() const noexcept requires std::same_as<S, float> { return vec4(x.v, y.v, z.v, w.v); }
+    [[gnu::always_inline]] explicit constexpr Vec4(vec4 const& p) noexcept : x(p.x), y(p.y), z(p.z), w(p.w) {}
+    [[gnu::always_inline]] explicit constexpr operator vec4() const noexcept requires std::same_as<S, float> { return vec4(x.v, y.v, z.v, w.v); }
 
-    friend constexpr Vec4 operator+(Vec4 const& a, Vec4 const& b) noexcept {
+    GNOMON_OP Vec4 operator+(Vec4 const& a, Vec4 const& b) noexcept {
         return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w};
     }
-    friend constexpr Vec4 operator*(Vec4 const& a, Float<S> const& s) noexcept {
+    GNOMON_OP Vec4 operator*(Vec4 const& a, Float<S> const& s) noexcept {
         return {a.x * s, a.y * s, a.z * s, a.w * s};
     }
 };
 
 }  // namespace gnomon::formula
+
+#undef GNOMON_OP

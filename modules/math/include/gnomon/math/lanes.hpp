@@ -4,6 +4,9 @@
 // One type, two forms behind it: the compiler's vector extension (GCC, Clang), which becomes SSE, AVX or NEON as the
 // target allows, or a plain array (GNOMON_SCALAR, other compilers). Every operation is the IEEE one per lane, so both
 // forms, and every width, give the same bits as the scalar code. Loads need no alignment.
+//
+// Always inlined: a function compiled for AVX2 may use wide lanes though the rest of the program is not, and the two
+// pass such arguments differently.
 
 #include <array>
 #include <bit>
@@ -55,54 +58,56 @@ struct Lanes {
 
     typename detail::Storage<T, N>::Type v;
 
-    [[nodiscard]] static Lanes all(T x) noexcept {
+    [[nodiscard, gnu::always_inline]] static Lanes all(T x) noexcept {
         Lanes r;
         for (std::size_t i = 0; i < N; ++i) r.v[i] = x;
         return r;
     }
     /// first, first + step, first + 2 step ...: each lane one product and one sum.
-    [[nodiscard]] static Lanes ramp(T first, T step) noexcept {
+    [[nodiscard, gnu::always_inline]] static Lanes ramp(T first, T step) noexcept {
         Lanes r;
         for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(first + static_cast<T>(i) * step);
         return r;
     }
     /// expects: `from` holds N elements.
-    [[nodiscard]] static Lanes load(T const* from) noexcept {
+    [[nodiscard, gnu::always_inline]] static Lanes load(T const* from) noexcept {
         Lanes r;
         std::memcpy(&r.v, from, sizeof(r.v));
         return r;
     }
-    void store(T* to) const noexcept { std::memcpy(to, &v, sizeof(v)); }
-    [[nodiscard]] T operator[](std::size_t i) const noexcept { return v[i]; }
+    [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v, sizeof(v)); }
+    [[nodiscard, gnu::always_inline]] T operator[](std::size_t i) const noexcept { return v[i]; }
 };
 
 #if GNOMON_VECTOR_EXTENSION
-#define GNOMON_LANES_BINARY(op)                                                                              \
-    template <Lane T, std::size_t N>                                                                         \
-    [[nodiscard]] inline Lanes<T, N> operator op(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {      \
-        return {a.v op b.v};                                                                                 \
+#define GNOMON_LANES_BINARY(op) \
+    template <Lane T, std::size_t N> \
+    [[nodiscard, gnu::always_inline]] inline Lanes<T, N> operator op(Lanes<T, N> const& a, \
+                                                                     Lanes<T, N> const& b) noexcept { \
+        return {a.v op b.v}; \
     }
-#define GNOMON_LANES_COMPARE(op)                                                                             \
-    template <Lane T, std::size_t N>                                                                         \
-    [[nodiscard]] inline typename Lanes<T, N>::Mask operator op(Lanes<T, N> const& a,                        \
-                                                                Lanes<T, N> const& b) noexcept {             \
-        return {a.v op b.v};                                                                                 \
+#define GNOMON_LANES_COMPARE(op) \
+    template <Lane T, std::size_t N> \
+    [[nodiscard, gnu::always_inline]] inline typename Lanes<T, N>::Mask operator op( \
+        Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept { \
+        return {a.v op b.v}; \
     }
 #else
-#define GNOMON_LANES_BINARY(op)                                                                              \
-    template <Lane T, std::size_t N>                                                                         \
-    [[nodiscard]] inline Lanes<T, N> operator op(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {      \
-        Lanes<T, N> r;                                                                                       \
-        for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(a.v[i] op b.v[i]);                       \
-        return r;                                                                                            \
+#define GNOMON_LANES_BINARY(op) \
+    template <Lane T, std::size_t N> \
+    [[nodiscard, gnu::always_inline]] inline Lanes<T, N> operator op(Lanes<T, N> const& a, \
+                                                                     Lanes<T, N> const& b) noexcept { \
+        Lanes<T, N> r; \
+        for (std::size_t i = 0; i < N; ++i) r.v[i] = static_cast<T>(a.v[i] op b.v[i]); \
+        return r; \
     }
-#define GNOMON_LANES_COMPARE(op)                                                                             \
-    template <Lane T, std::size_t N>                                                                         \
-    [[nodiscard]] inline typename Lanes<T, N>::Mask operator op(Lanes<T, N> const& a,                        \
-                                                                Lanes<T, N> const& b) noexcept {             \
-        typename Lanes<T, N>::Mask r;                                                                        \
-        for (std::size_t i = 0; i < N; ++i) r.v[i] = a.v[i] op b.v[i] ? -1 : 0;                              \
-        return r;                                                                                            \
+#define GNOMON_LANES_COMPARE(op) \
+    template <Lane T, std::size_t N> \
+    [[nodiscard, gnu::always_inline]] inline typename Lanes<T, N>::Mask operator op( \
+        Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept { \
+        typename Lanes<T, N>::Mask r; \
+        for (std::size_t i = 0; i < N; ++i) r.v[i] = a.v[i] op b.v[i] ? -1 : 0; \
+        return r; \
     }
 #endif
 
@@ -124,7 +129,7 @@ GNOMON_LANES_COMPARE(!=)
 #undef GNOMON_LANES_COMPARE
 
 template <Lane T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> operator-(Lanes<T, N> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> operator-(Lanes<T, N> const& a) noexcept {
 #if GNOMON_VECTOR_EXTENSION
     return {-a.v};
 #else
@@ -136,7 +141,7 @@ template <Lane T, std::size_t N>
 
 /// Each lane shifted up; expects: 0 <= places < the lane's width.
 template <std::integral T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> operator<<(Lanes<T, N> const& a, int places) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> operator<<(Lanes<T, N> const& a, int places) noexcept {
 #if GNOMON_VECTOR_EXTENSION
     return {a.v << places};
 #else
@@ -148,7 +153,7 @@ template <std::integral T, std::size_t N>
 
 /// Each lane shifted down, with its sign where it has one; expects: 0 <= places < the lane's width.
 template <std::integral T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> operator>>(Lanes<T, N> const& a, int places) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> operator>>(Lanes<T, N> const& a, int places) noexcept {
 #if GNOMON_VECTOR_EXTENSION
     return {a.v >> places};
 #else
@@ -161,7 +166,7 @@ template <std::integral T, std::size_t N>
 /// The same bits, read as another type of the same size.
 template <Lane To, Lane From, std::size_t N>
     requires(sizeof(To) == sizeof(From))
-[[nodiscard]] inline Lanes<To, N> bits_as(Lanes<From, N> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<To, N> bits_as(Lanes<From, N> const& a) noexcept {
     Lanes<To, N> r;
     std::memcpy(&r.v, &a.v, sizeof(r.v));
     return r;
@@ -169,8 +174,8 @@ template <Lane To, Lane From, std::size_t N>
 
 /// Per lane `yes` where the mask is set, else `no`. No arithmetic: NaN and signed zeros pass through.
 template <Lane T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> select(typename Lanes<T, N>::Mask const& mask, Lanes<T, N> const& yes,
-                                        Lanes<T, N> const& no) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> select(typename Lanes<T, N>::Mask const& mask,
+                                                            Lanes<T, N> const& yes, Lanes<T, N> const& no) noexcept {
 #if GNOMON_VECTOR_EXTENSION
     return {mask.v ? yes.v : no.v};
 #else
@@ -182,31 +187,31 @@ template <Lane T, std::size_t N>
 
 /// Per lane `b < a ? b : a`: a NaN in `b` leaves `a`.
 template <Lane T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> min(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> min(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {
     return select(b < a, b, a);
 }
 
 /// Per lane `b > a ? b : a`: a NaN in `b` leaves `a`.
 template <Lane T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> max(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> max(Lanes<T, N> const& a, Lanes<T, N> const& b) noexcept {
     return select(b > a, b, a);
 }
 
 /// One bit per lane, lane 0 lowest, of a mask (a comparison's result).
 template <std::signed_integral T, std::size_t N>
-[[nodiscard]] inline std::uint32_t bits(Lanes<T, N> const& mask) noexcept {
+[[nodiscard, gnu::always_inline]] inline std::uint32_t bits(Lanes<T, N> const& mask) noexcept {
     std::uint32_t r = 0;
     for (std::size_t i = 0; i < N; ++i) r |= static_cast<std::uint32_t>(mask.v[i] < 0) << i;
     return r;
 }
 
 template <std::signed_integral T, std::size_t N>
-[[nodiscard]] inline bool any(Lanes<T, N> const& mask) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool any(Lanes<T, N> const& mask) noexcept {
     return bits(mask) != 0;
 }
 
 template <std::signed_integral T, std::size_t N>
-[[nodiscard]] inline bool all(Lanes<T, N> const& mask) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool all(Lanes<T, N> const& mask) noexcept {
     return bits(mask) == (N == 32 ? ~0U : (1U << N) - 1U);
 }
 
@@ -214,7 +219,7 @@ template <std::signed_integral T, std::size_t N>
 ///
 /// expects: every lane fits `To`; a float that does not is undefined behaviour, as in plain C++.
 template <Lane To, Lane From, std::size_t N>
-[[nodiscard]] inline Lanes<To, N> convert(Lanes<From, N> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<To, N> convert(Lanes<From, N> const& a) noexcept {
 #if GNOMON_VECTOR_EXTENSION
     return {__builtin_convertvector(a.v, typename detail::Storage<To, N>::Type)};
 #else

@@ -34,7 +34,7 @@ concept OneOf = (std::same_as<X, T> || ...);
 
 /// `x` in every lane, or `x` itself.
 template <class To, class X>
-[[nodiscard]] constexpr To spread(X const& x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr To spread(X const& x) noexcept {
     if constexpr (std::same_as<To, X>) return x;
     else if constexpr (std::same_as<X, bool>) return To::all(x ? -1 : 0);
     else if constexpr (requires { To::size; }) return To::all(static_cast<typename To::value_type>(x));
@@ -42,55 +42,55 @@ template <class To, class X>
 }
 
 template <class To, class From>
-[[nodiscard]] constexpr To converted(From const& x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr To converted(From const& x) noexcept {
     if constexpr (requires { To::size; }) return math::convert<typename To::value_type>(x);
     else return static_cast<To>(x);
 }
 
 template <class To, class From>
-[[nodiscard]] constexpr To same_bits(From const& x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr To same_bits(From const& x) noexcept {
     if constexpr (requires { To::size; }) return math::bits_as<typename To::value_type>(x);
     else return std::bit_cast<To>(x);
 }
 
 template <class Mask, class X>
-[[nodiscard]] constexpr X chosen(Mask const& mask, X const& yes, X const& no) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr X chosen(Mask const& mask, X const& yes, X const& no) noexcept {
     if constexpr (requires { X::size; }) return math::select(mask, yes, no);
     else return mask ? yes : no;
 }
 
 template <class Mask>
-[[nodiscard]] constexpr Mask both(Mask const& a, Mask const& b) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr Mask both(Mask const& a, Mask const& b) noexcept {
     if constexpr (requires { Mask::size; }) return a & b;
     else return a && b;
 }
 
 template <class Mask>
-[[nodiscard]] constexpr Mask either(Mask const& a, Mask const& b) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr Mask either(Mask const& a, Mask const& b) noexcept {
     if constexpr (requires { Mask::size; }) return a | b;
     else return a || b;
 }
 
 template <class Mask>
-[[nodiscard]] constexpr Mask inverted(Mask const& a) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr Mask inverted(Mask const& a) noexcept {
     if constexpr (requires { Mask::size; }) return a == Mask::all(0);
     else return !a;
 }
 
 template <class Mask>
-[[nodiscard]] constexpr bool is_any(Mask const& a) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr bool is_any(Mask const& a) noexcept {
     if constexpr (requires { Mask::size; }) return math::any(a);
     else return a;
 }
 
 template <class S>
-[[nodiscard]] constexpr S root(S const& x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr S root(S const& x) noexcept {
     if constexpr (requires { S::size; }) return math::sqrt(x);
     else return std::sqrt(x);
 }
 
 template <class S>
-[[nodiscard]] constexpr S magnitude(S const& x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr S magnitude(S const& x) noexcept {
     if constexpr (requires { S::size; })
         return math::bits_as<float>(math::bits_as<std::int32_t>(x) & Scalar<S>::Int::all(0x7FFF'FFFF));
     else if constexpr (sizeof(S) == 4)

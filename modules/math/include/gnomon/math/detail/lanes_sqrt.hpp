@@ -14,7 +14,7 @@ namespace gnomon::math {
 
 /// The root of each lane, rounded to nearest; NaN below zero.
 template <std::floating_point T, std::size_t N>
-[[nodiscard]] inline Lanes<T, N> sqrt(Lanes<T, N> const& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline Lanes<T, N> sqrt(Lanes<T, N> const& a) noexcept {
     Lanes<T, N> r;
 #if GNOMON_VECTOR_EXTENSION && defined(__SSE2__)
     if constexpr (sizeof(T) == 4 && N >= 4) {

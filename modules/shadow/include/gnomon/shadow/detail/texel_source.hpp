@@ -26,7 +26,7 @@ namespace gnomon::formula {
 
 /// What GN_TEXEL is in C++.
 template <class S, shadow::TexelSource Source>
-[[nodiscard]] inline Float<S> gn_texel(Source const& texels, Int<S> const& x, Int<S> const& y) noexcept {
+[[nodiscard, gnu::always_inline]] inline Float<S> gn_texel(Source const& texels, Int<S> const& x, Int<S> const& y) noexcept {
     if constexpr (requires { S::size; }) {
         S depth;
         for (std::size_t i = 0; i < S::size; ++i) depth.v[i] = shadow::depth_of(texels.at(x.v[i], y.v[i]));
