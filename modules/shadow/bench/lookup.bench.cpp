@@ -53,6 +53,22 @@ void look_up(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(setup.receivers.size()));
 }
 
+void look_up_many(benchmark::State& state) {
+    static Setup const setup = make_setup();
+    shadow::LookupConfig config;
+    config.taps = static_cast<int>(state.range(0));
+    shadow::Texels<float> const texels{setup.texels.data(), 2048};
+    std::vector<shadow::Surface> surfaces;
+    for (math::vec3 const& p : setup.receivers) surfaces.push_back({p, math::vec3(0.0F, 1.0F, 0.0F)});
+    std::vector<shadow::Lookup> seen(surfaces.size());
+    for ([[maybe_unused]] auto _ : state) {
+        shadow::look_up_many(setup.map, texels, config, surfaces, seen);
+        benchmark::DoNotOptimize(seen.data());
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(setup.receivers.size()));
+}
+
 }  // namespace
 
+BENCHMARK(look_up_many)->ArgName("taps")->Arg(1)->Arg(2)->Arg(3)->Arg(5);
 BENCHMARK(look_up)->ArgNames({"taps", "automatic"})->ArgsProduct({{1, 2, 3, 5}, {0, 1}});

@@ -38,6 +38,12 @@ struct Lookup {
     float bias_m = 0.0F;      ///< The bias applied, normal offset included, in metres toward the light.
 };
 
+/// A point that is looked up: position in work space, unit geometric normal on the side that is looked at.
+struct Surface {
+    math::vec3 position{0.0F};
+    math::vec3 normal{0.0F, 1.0F, 0.0F};
+};
+
 /// The receiver that a lookup compares with: projected, offset and biased.
 struct Prepared {
     Receiver receiver;

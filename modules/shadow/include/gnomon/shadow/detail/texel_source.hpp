@@ -28,9 +28,9 @@ namespace gnomon::formula {
 template <class S, shadow::TexelSource Source>
 [[nodiscard, gnu::always_inline]] inline Float<S> gn_texel(Source const& texels, Int<S> const& x, Int<S> const& y) noexcept {
     if constexpr (requires { S::size; }) {
-        S depth;
-        for (std::size_t i = 0; i < S::size; ++i) depth.v[i] = shadow::depth_of(texels.at(x.v[i], y.v[i]));
-        return depth;
+        float depth[S::size];
+        for (std::size_t i = 0; i < S::size; ++i) depth[i] = shadow::depth_of(texels.at(x.v[i], y.v[i]));
+        return S::load(depth);
     } else {
         return shadow::depth_of(texels.at(x.v, y.v));
     }
