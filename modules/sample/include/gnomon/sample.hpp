@@ -2,4 +2,5 @@
 // All of sample.
 
 #include <gnomon/sample/image_samples.hpp>
+#include <gnomon/sample/reconstruct.hpp>
 #include <gnomon/sample/view_sample.hpp>
