@@ -1,8 +1,11 @@
 #include <gnomon/check/check.hpp>
 #include <gnomon/math/formula.hpp>
 #include <gnomon/math/formula/exact.glsl>
+#include <gnomon/math/formula/view.glsl>
 #include <gnomon/math/generators.hpp>
+#include <gnomon/math/view.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -32,6 +35,8 @@ float root_from_guess(float x, std::int64_t steps) {
     float const about = off_by(std::sqrt(gn_root_argument(F(x)).v), steps);
     return gn_exact_root(F(x), F(about), F(-1.0F)).v;
 }
+
+double real_of(float x) { return static_cast<double>(x); }
 
 bool is_normal(float x) { return std::isnormal(x); }
 
@@ -98,4 +103,45 @@ TEST_CASE("eight lanes of a formula give one lane's bits", "[math][formula][prop
                                                            F(q.v[i])).v));
         }
     });
+}
+
+TEST_CASE("the float projection of a point is within its bound of the double one", "[math][formula][property]") {
+    auto const near_one = check::floats(-1.0F, 1.0F);
+    double largest = 0.0;  // error in bounds
+    check::for_all(check::cases(4000), check::array_of<8>(near_one), check::integers(0, 3),
+                   [&](std::array<float, 8> const& u, int kind) {
+        auto const real = [&](std::size_t i) { return static_cast<double>(u[i]); };
+        bool const perspective = kind < 2;
+        math::PerspectiveConfig lens;
+        lens.eye_m = math::dvec3(real(0), real(1), real(2)) * 1e6;
+        lens.target_m = lens.eye_m + math::dvec3(real(3), 0.3, real(4) - 1.5);
+        lens.far_m = kind == 0 ? std::numeric_limits<double>::infinity() : 200.0;
+        lens.size_px = math::ivec2(2048, 1024);
+        math::OrthographicConfig box{.eye_m = lens.eye_m, .target_m = lens.target_m, .window_m = {-20, 20, -10, 10},
+                                     .near_m = 0.0, .far_m = 200.0, .size_px = lens.size_px, .depth = math::Depth::forward};
+        math::View const view = perspective ? math::make_perspective(lens).value() : math::make_orthographic(box).value();
+        math::PixelRay const ray = math::pixel_ray(view, math::dvec2(1024.0 + 1500.0 * real(5), 512.0 + 700.0 * real(6)));
+        math::vec3 const p = math::to_float(ray.start_m + ray.step * (51.0 + 50.0 * real(7)));
+
+        math::mat4 const m = math::clip_from_relative(view);
+        auto const clip = gn_clip_of(m, formula::Vec3<float>(p));
+        auto const at = gn_image_point(clip, math::vec2(2048.0F, 1024.0F), perspective);
+        math::dvec3 const exact = math::project(view, math::to_double(p));
+        // Matrix, product and two sums: 4 e of the absolute products; then quotient, product, sum and product.
+        auto const row_error = [&](math::axis_t row) {
+            math::dvec3 const a(m[0][row], m[1][row], m[2][row]);
+            return 4.0 * 0x1p-24 * (std::abs(a.x * real_of(p.x)) + std::abs(a.y * real_of(p.y)) +
+                                    std::abs(a.z * real_of(p.z)) + std::abs(static_cast<double>(m[3][row])));
+        };
+        double const w = static_cast<double>(clip.w.v);
+        double const ndc_x = std::abs(exact.x / 1024.0 - 1.0);
+        double const ndc_error = (row_error(0) + ndc_x * row_error(3)) / w + 4.0 * 0x1p-24 * ndc_x + 2.0 * 0x1p-24;
+        double const bound_px = ndc_error * 1024.0 * 1.001;
+        double const error_px = std::abs(static_cast<double>(at.px.x.v) - exact.x);
+        CHECK(error_px <= bound_px);
+        double const depth_error = (row_error(2) + std::abs(exact.z) * row_error(3)) / w + 3.0 * 0x1p-24 * std::abs(exact.z);
+        CHECK(std::abs(static_cast<double>(at.depth.v) - exact.z) <= depth_error * 1.001);
+        largest = std::max(largest, error_px / bound_px);
+    });
+    CHECK(largest > 0.05);
 }
