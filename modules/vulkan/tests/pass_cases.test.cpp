@@ -261,7 +261,7 @@ TEST_CASE("whichever call fails, a list, a target, the pipelines and the queries
     };
     fails_everywhere([&] { return vulkan::make_draw_list(*pipelines, {&draw, 1}); });
     fails_everywhere([&] { return vulkan::make_target(gpu, {.size_px = {8, 8}, .layers = 3, .triangle_ids = true}); });
-    fails_everywhere([&] { return vulkan::make_pass_pipelines(gpu, {.unorm16 = false}); });
+    fails_everywhere([&] { return vulkan::make_pass_pipelines(gpu, {.unorm16 = false, .alpha_tests = false}); });
     CHECK(device->take_messages() == "");
 }
 
@@ -316,14 +316,15 @@ TEST_CASE("recording a frame allocates nothing; its calls do not depend on the n
         VkCommandBuffer const commands = VK_NULL_HANDLE;
         std::uint64_t const before = allocations_made();
         std::uint64_t const makes = null_driver::counts.makes;
-        auto const start = std::chrono::steady_clock::now();
+        double us = 1e9;
         std::uint64_t calls = 0;
         for (int frame = 0; frame < 1000; ++frame) {
+            auto const start = std::chrono::steady_clock::now();
             auto const counts = vulkan::record_pass(commands, *list, *target, layers);
             calls += counts ? counts->draw_calls : 0;
             target->prepare(commands, vulkan::TargetUse::sample);
+            us = std::min(us, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
         }
-        double const us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count() / 1000;
         CHECK(allocations_made() == before);
         CHECK(null_driver::counts.makes == makes);
         calls_of[n > 12 ? 1 : 0] = calls / 1000;
