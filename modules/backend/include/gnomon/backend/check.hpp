@@ -117,13 +117,17 @@ namespace detail {
     return Done{};
 }
 
+/// Up to so many layers of a pass are compared with each other; that more do not overlap is the caller's word.
+inline constexpr std::size_t max_compared_layers = 64;
+
 /// All layers of a pass.
 ///
-/// cost: O(layers^2)
+/// cost: O(layers^2) up to `max_compared_layers`.
 [[nodiscard]] inline Result<Done> check_layers(std::span<PassLayer const> layers, TargetConfig const& target,
                                                Limits const& limits) {
     for (std::size_t i = 0; i < layers.size(); ++i) {
         if (auto ok = check_layer("draw", layers[i], target, limits); !ok) return ok;
+        if (layers.size() > max_compared_layers) continue;
         Rect const area = area_of(layers[i], target.size_px);
         for (std::size_t j = 0; j < i; ++j) {
             if (layers[j].layer != layers[i].layer) continue;
