@@ -1,10 +1,12 @@
-#include "devices_state.hpp"
+#include "devices.hpp"
 
 #include "values.hpp"
 
+#include <gnomon/vulkan/backend.hpp>
 #include <gnomon/vulkan/gpu.hpp>
 
 #include <fmt/format.h>
+#include <vulkan/vulkan_raii.hpp>
 
 #include <algorithm>
 #include <array>
@@ -135,22 +137,6 @@ Outcome<std::size_t> choose(std::vector<DeviceInfo> const& devices, std::optiona
     return *best;
 }
 
-void make_device(VulkanDevice::State& state) {
-    state.queue_family = *queue_family_of(state.physical);
-    float const priority = 1.0F;
-    vk::DeviceQueueCreateInfo const queue({}, state.queue_family, 1, &priority);
-    vulkan::FeatureChain const chain(features_of(state.instance, state.physical));
-    vk::DeviceCreateInfo info({}, queue);
-    info.pNext = chain.head();
-    state.device = vk::raii::Device(state.physical, info);
-    state.queue = state.device.getQueue(state.queue_family, 0);
-    state.pool = state.device.createCommandPool(
-        {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, state.queue_family});
-    state.commands = std::move(
-        state.device.allocateCommandBuffers({*state.pool, vk::CommandBufferLevel::ePrimary, 1}).front());
-    state.fence = state.device.createFence({});
-}
-
 /// Runs `use`, which throws as Vulkan-Hpp and the loader do.
 template <class T, class Use>
 Outcome<T> guarded(Use&& use) {
@@ -165,10 +151,79 @@ Outcome<T> guarded(Use&& use) {
 
 }  // namespace
 
+struct VulkanDevice::State {
+    State(vk::raii::Context&& loader, vk::raii::Instance&& made, vk::raii::PhysicalDevice&& chosen)
+        : context(std::move(loader)), instance(std::move(made)), physical(std::move(chosen)) {
+        features = features_of(instance, physical);
+        queue_family = *queue_family_of(physical);
+        float const priority = 1.0F;
+        vk::DeviceQueueCreateInfo const queue_info({}, queue_family, 1, &priority);
+        vulkan::FeatureChain const chain(features);
+        device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue_info, {}, {}, {}, chain.head()));
+        queue = device.getQueue(queue_family, 0);
+        pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family});
+        commands = std::move(device.allocateCommandBuffers({*pool, vk::CommandBufferLevel::ePrimary, 1}).front());
+        fence = device.createFence({});
+    }
+
+    [[nodiscard]] vulkan::GpuConfig gpu_config() const {
+        vulkan::GpuConfig config;
+        config.loader = instance.getDispatcher()->vkGetInstanceProcAddr;
+        config.instance = *instance;
+        config.physical = *physical;
+        config.device = *device;
+        config.queue_family = queue_family;
+        config.enabled = features;
+        return config;
+    }
+
+    static VkResult begin(void* context, VkCommandBuffer& out) {
+        auto& self = *static_cast<State*>(context);
+        out = *self.commands;
+        VkCommandBufferBeginInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        return self.device.getDispatcher()->vkBeginCommandBuffer(out, &info);
+    }
+
+    static VkResult submit_and_wait(void* context, VkCommandBuffer commands) {
+        auto& self = *static_cast<State*>(context);
+        auto const& call = *self.device.getDispatcher();
+        VkFence const fence = *self.fence;
+        if (VkResult const ended = call.vkEndCommandBuffer(commands); ended != VK_SUCCESS) return ended;
+        VkCommandBufferSubmitInfo buffer{};
+        buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+        buffer.commandBuffer = commands;
+        VkSubmitInfo2 submit{};
+        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+        submit.commandBufferInfoCount = 1;
+        submit.pCommandBufferInfos = &buffer;
+        if (VkResult const sent = call.vkQueueSubmit2(*self.queue, 1, &submit, fence); sent != VK_SUCCESS) return sent;
+        constexpr std::uint64_t forever = ~std::uint64_t{0};
+        if (VkResult const done = call.vkWaitForFences(*self.device, 1, &fence, VK_TRUE, forever); done != VK_SUCCESS)
+            return done;
+        return call.vkResetFences(*self.device, 1, &fence);
+    }
+
+    vk::raii::Context context;
+    vk::raii::Instance instance;
+    vk::raii::PhysicalDevice physical;
+    vulkan::Features features;
+    std::uint32_t queue_family = 0;
+    vk::raii::Device device = nullptr;
+    vk::raii::Queue queue = nullptr;
+    vk::raii::CommandPool pool = nullptr;
+    vk::raii::CommandBuffer commands = nullptr;
+    vk::raii::Fence fence = nullptr;
+    DeviceInfo info;
+    std::unique_ptr<vulkan::Backend> backend;  ///< Last: the first to go.
+};
+
 VulkanDevice::VulkanDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
 VulkanDevice::~VulkanDevice() = default;
 
 DeviceInfo const& VulkanDevice::info() const noexcept { return state_->info; }
+backend::Backend& VulkanDevice::backend() noexcept { return *state_->backend; }
 
 Outcome<std::vector<DeviceInfo>> vulkan_devices() {
     return guarded<std::vector<DeviceInfo>>([]() -> Outcome<std::vector<DeviceInfo>> {
@@ -185,30 +240,23 @@ Outcome<std::vector<DeviceInfo>> vulkan_devices() {
 Outcome<std::unique_ptr<VulkanDevice>> VulkanDevice::open(std::optional<std::string> const& name) {
     using Opened = std::unique_ptr<VulkanDevice>;
     return guarded<Opened>([&]() -> Outcome<Opened> {
-        auto state = std::make_unique<State>();
-        state->instance = make_instance(state->context);
-        std::vector<vk::raii::PhysicalDevice> physicals = state->instance.enumeratePhysicalDevices();
+        vk::raii::Context context;
+        vk::raii::Instance instance = make_instance(context);
+        std::vector<vk::raii::PhysicalDevice> physicals = instance.enumeratePhysicalDevices();
         std::vector<DeviceInfo> devices;
-        for (vk::raii::PhysicalDevice const& physical : physicals) devices.push_back(describe(state->instance, physical));
+        for (vk::raii::PhysicalDevice const& physical : physicals) devices.push_back(describe(instance, physical));
         if (devices.empty()) return no_vulkan("the loader finds no device");
         auto const chosen = choose(devices, name);
         if (!chosen) return chosen.failure();
-        state->physical = std::move(physicals[*chosen]);
+        auto state = std::make_unique<State>(std::move(context), std::move(instance), std::move(physicals[*chosen]));
         state->info = devices[*chosen];
-        make_device(*state);
+        auto gpu = vulkan::make_gpu(state->gpu_config());
+        if (!gpu) return failure(gpu.failure().message);
+        auto made = vulkan::Backend::make(*std::move(gpu), {state.get(), &State::begin, &State::submit_and_wait});
+        if (!made) return failure(made.failure().message);
+        state->backend = *std::move(made);
         return Opened(new VulkanDevice(std::move(state)));
     });
-}
-
-vulkan::GpuConfig VulkanDevice::gpu_config() const {
-    vulkan::GpuConfig config;
-    config.loader = state_->instance.getDispatcher()->vkGetInstanceProcAddr;
-    config.instance = *state_->instance;
-    config.physical = *state_->physical;
-    config.device = *state_->device;
-    config.queue_family = state_->queue_family;
-    config.enabled = features_of(state_->instance, state_->physical);
-    return config;
 }
 
 }  // namespace gnomon::command

@@ -4,15 +4,13 @@
 
 #include "outcome.hpp"
 
+#include <gnomon/backend/verbs.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace gnomon::vulkan {
-struct GpuConfig;
-}
 
 namespace gnomon::command {
 
@@ -30,7 +28,7 @@ struct DeviceInfo {
 /// returns: all devices in the loader's order; or one sentence that says why there is no Vulkan.
 [[nodiscard]] Outcome<std::vector<DeviceInfo>> vulkan_devices();
 
-/// Instance, device, queue and command buffer of the command's own. Adapters only get to see them.
+/// Instance, device, queue and command buffer of the command's own, and the backend that records for them.
 class VulkanDevice {
   public:
     /// `name`: all or a part of a device's name, in any case, or its number from 1 as `info --devices` counts. Without
@@ -41,12 +39,10 @@ class VulkanDevice {
     ~VulkanDevice();
 
     [[nodiscard]] DeviceInfo const& info() const noexcept;
-    [[nodiscard]] vulkan::GpuConfig gpu_config() const;
-
-    struct State;
-    [[nodiscard]] State& state() noexcept { return *state_; }
+    [[nodiscard]] backend::Backend& backend() noexcept;
 
   private:
+    struct State;
     explicit VulkanDevice(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };

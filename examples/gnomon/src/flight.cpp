@@ -52,6 +52,9 @@ class Flight {
         : options_(options), plan_(plan), folder_(folder), executor_(executor), made_(products_of(options.verb)) {}
 
     Outcome<core::Done> prepare() {
+        auto backends = Backends::open(options_, executor_);
+        if (!backends) return std::move(backends).failure();
+        backends_ = *std::move(backends);
         auto stage = set_stage(options_.scene, options_.motion);
         if (!stage) return std::move(stage).failure();
         stage_ = *std::move(stage);
@@ -67,12 +70,12 @@ class Flight {
         report_.frames = journey_.views.size();
         FilmConfig const film{report_.size_px, journey_.rate_hz};
         exact_ = std::make_unique<Film>(film);
-        requests_ = requests_of(plan_);
+        requests_ = requests_of(plan_, backends_);
         for (std::size_t i = 0; i < plan_.size(); ++i) {
             films_.push_back({Film(film), Film(film)});
             workspaces_.push_back(std::make_unique<pipeline::Workspace>());
             requests_[i].workspace = workspaces_.back().get();
-            report_.runs.push_back({plan_[i].label, plan_[i].slug, {}, {}});
+            report_.runs.push_back(run_of(plan_[i], backends_));
         }
         return core::Done{};
     }
@@ -191,6 +194,7 @@ class Flight {
     FolderWriter& folder_;
     core::ExecutorRef executor_;
     Products made_;
+    Backends backends_;
     Stage stage_;
     Journey journey_;
     ChosenLight light_;

@@ -74,6 +74,7 @@ Json run_json(Report const& report, Run const& run) {
             {"view", report.view},
             {"light", report.light},
             {"backend", run.result.backend},
+            {"device", run.device},
             {"threads", report.threads},
             {"technique", run.result.technique},
             {"params", params_json(run.result.params)},

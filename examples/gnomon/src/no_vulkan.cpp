@@ -2,6 +2,8 @@
 
 #include "devices.hpp"
 
+#include <exception>
+
 namespace gnomon::command {
 
 struct VulkanDevice::State {};
@@ -17,6 +19,10 @@ core::Failure<Exit> not_built() {
 
 VulkanDevice::VulkanDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
 VulkanDevice::~VulkanDevice() = default;
+
+// Nobody has a device to call these of.
+DeviceInfo const& VulkanDevice::info() const noexcept { std::terminate(); }
+backend::Backend& VulkanDevice::backend() noexcept { std::terminate(); }
 
 Outcome<std::vector<DeviceInfo>> vulkan_devices() { return not_built(); }
 Outcome<std::unique_ptr<VulkanDevice>> VulkanDevice::open(std::optional<std::string> const&) { return not_built(); }

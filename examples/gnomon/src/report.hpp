@@ -37,6 +37,7 @@ struct FrameRecord {
 struct Run {
     std::string label;  ///< "shadow-map resolution=512": the technique and what the user set.
     std::string slug;   ///< The same as a file name without extension; unique in its report.
+    std::string device;  ///< What it ran on: the processor, or the Vulkan device.
     pipeline::RunReport result;       ///< Of a path: ms over its frames, errors and counts summed. See `total_of`.
     std::vector<FrameRecord> frames;  ///< Of a path; else empty.
 };

@@ -75,6 +75,8 @@ struct StepsOfRuns {
 
 Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const& plan, ProgressBar& bar,
                         core::ExecutorRef executor) {
+    auto backends = Backends::open(options, executor);
+    if (!backends) return std::move(backends).failure();
     int const steps = StepsOfRuns::steps(plan.size());
     bar.show(0, steps, "reading " + options.scene.config.name);
     auto stage = set_stage(options.scene, options.motion);
@@ -91,7 +93,7 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     pipeline::CompareConfig config;
     config.repeats = options.repeats;
     config.progress = {&StepsOfRuns::report, &steps_of_runs};
-    auto compared = pipeline::compare(*frame, requests_of(plan), config, executor);
+    auto compared = pipeline::compare(*frame, requests_of(plan, *backends), config, executor);
     if (!compared) return exit_for(compared.failure());
     Report report = start_report(options, *stage, *light);
     report.view = view->text + stage->text();
@@ -100,8 +102,10 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     report.exact = std::move(compared->exact);
     for (pipeline::StageTime const& time : frame->stages)
         if (time.name.starts_with("truth")) report.truth_ms += time.ms;
-    for (std::size_t i = 0; i < plan.size(); ++i)
-        report.runs.push_back({plan[i].label, plan[i].slug, std::move(compared->runs[i]), {}});
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        report.runs.push_back(run_of(plan[i], *backends));
+        report.runs.back().result = std::move(compared->runs[i]);
+    }
     add_facts(report, *stage, *light, *frame);
     return report;
 }

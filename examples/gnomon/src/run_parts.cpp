@@ -105,6 +105,11 @@ void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pip
     for (pipeline::StageTime const& time : frame.stages)
         preparation += fmt::format("{}{} {} ms", preparation.empty() ? "" : ", ", words_of(time.name), figures(time.ms));
     report.facts.push_back({report.frames > 1 ? "preparation of the last frame" : "preparation", preparation});
+    for (Run const& run : report.runs)
+        if (run.result.backend != "cpu") {
+            report.facts.push_back({"Vulkan device", run.device});
+            break;
+        }
     Machine const& machine = report.machine;
     report.facts.push_back({"machine", fmt::format("{}, {} threads used of {}", machine.cpu, report.threads,
                                                    machine.logical_cores)});
@@ -112,10 +117,18 @@ void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pip
     report.facts.push_back({"build", fmt::format("{}, {}, {}", machine.compiler, machine.build, machine.system)});
 }
 
-std::vector<pipeline::RunRequest> requests_of(std::vector<PlannedRun> const& plan) {
+std::vector<pipeline::RunRequest> requests_of(std::vector<PlannedRun> const& plan, Backends const& backends) {
     std::vector<pipeline::RunRequest> requests;
-    for (PlannedRun const& planned : plan) requests.push_back({planned.technique, planned.params});
+    for (PlannedRun const& planned : plan) {
+        pipeline::RunRequest request{planned.technique, planned.params};
+        request.device = &backends.get(planned.backend);
+        requests.push_back(std::move(request));
+    }
     return requests;
+}
+
+Run run_of(PlannedRun const& planned, Backends const& backends) {
+    return {planned.label, planned.slug, backends.device_of(planned.backend), {}, {}};
 }
 
 Picture picture_of(pipeline::Image const& image) { return {image.size_px, 3, image.rgb}; }

@@ -1,6 +1,7 @@
 #pragma once
 // What a run of one view and a run along a path have in common.
 
+#include "backends.hpp"
 #include "inputs.hpp"
 #include "output.hpp"
 #include "plan.hpp"
@@ -24,10 +25,14 @@ namespace gnomon::command {
 /// The report's frame: what was run on what. No runs yet.
 [[nodiscard]] Report start_report(RunOptions const& options, Stage const& stage, ChosenLight const& light);
 
+/// A run without results yet.
+[[nodiscard]] Run run_of(PlannedRun const& planned, Backends const& backends);
+
 /// Adds the facts that the page lists. `frame` is the one looked at, or the last of a path.
 void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pipeline::Frame const& frame);
 
-[[nodiscard]] std::vector<pipeline::RunRequest> requests_of(std::vector<PlannedRun> const& plan);
+[[nodiscard]] std::vector<pipeline::RunRequest> requests_of(std::vector<PlannedRun> const& plan,
+                                                            Backends const& backends);
 
 [[nodiscard]] Picture picture_of(pipeline::Image const& image);
 

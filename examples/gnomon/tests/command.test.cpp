@@ -143,6 +143,30 @@ TEST_CASE("scenes lists, describes and writes", "[command]") {
     CHECK(built_in.out.substr(built_in.out.find('\n')) == file.out.substr(file.out.find('\n')));
 }
 
+TEST_CASE("both backends stand in one table, one page and one results.json, with the same errors", "[command]") {
+    TestFolder const folder;
+    (void)write_table(folder);
+    Ended const ended = gnomon_in(folder.path(), {"compare", "table.glb", "--size", "96x64", "--backend", "cpu,vulkan",
+                                                  "--param", "shadow-map.resolution=256", "--out", "both"});
+    if (ended.exit_code == 1 && has(ended.err, "there is no Vulkan here")) SKIP(ended.err);
+    REQUIRE(ended.exit_code == 0);
+    json const results = results_in(folder / "both");
+    CHECK(schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results).empty());
+    json const& runs = results["runs"];
+    REQUIRE(runs.size() == 4);
+    for (std::size_t i = 0; i < 4; i += 2) {
+        CHECK(runs[i]["backend"] == "cpu");
+        CHECK(runs[i + 1]["backend"] == "vulkan");
+        CHECK(runs[i]["technique"] == runs[i + 1]["technique"]);
+        CHECK(runs[i]["device"] != runs[i + 1]["device"]);
+        for (char const* what : {"samples", "wrong", "false_lit", "false_shadow"})
+            CHECK(runs[i]["error"][what] == runs[i + 1]["error"][what]);
+        CHECK(runs[i]["ms"]["stages"].size() == runs[i + 1]["ms"]["stages"].size());
+    }
+    CHECK(has(ended.out, "shadow-map resolution=256 on vulkan"));
+    CHECK(has(read_text(folder / "both/index.html"), "ray on vulkan"));
+}
+
 TEST_CASE("info names techniques and their parameters", "[command]") {
     TestFolder const folder;
     Ended const info = gnomon_in(folder.path(), {"info"});

@@ -22,8 +22,9 @@ Report small_report() {
     report.view = "--camera air --size 4x4";
     report.light = "--sun 0,-1,0";
     report.machine = this_machine();
-    Run run{"ray", "ray", {}, {}};
+    Run run{"ray", "ray", "a processor", {}, {}};
     run.result.technique = "ray";
+    run.result.backend = "cpu";
     run.result.params = {{"resolution", "512", 512.0, gnomon::pipeline::ParamKind::integer},
                          {"bias", "0.25", 0.25, gnomon::pipeline::ParamKind::real},
                          {"mode", "auto", 0.0, gnomon::pipeline::ParamKind::choice}};
@@ -79,6 +80,7 @@ TEST_CASE("each way of breaking the document is noticed", "[schema]") {
     CHECK(notices([](json& d) { d["runs"] = json::object(); }));
     CHECK(notices([](json& d) { d["runs"][0].erase("error"); }));
     CHECK(notices([](json& d) { d["runs"][0]["backend"] = "gpu"; }));
+    CHECK(notices([](json& d) { d["runs"][0].erase("device"); }));
     CHECK(notices([](json& d) { d["runs"][0]["threads"] = 0; }));
     CHECK(notices([](json& d) { d["runs"][0]["threads"] = 1.5; }));
     CHECK(notices([](json& d) { d["runs"][0]["threads"] = "2"; }));
