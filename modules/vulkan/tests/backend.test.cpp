@@ -1,6 +1,4 @@
 #include "test_kernels.hpp"
-#include "allocations.hpp"
-#include "null_driver.hpp"
 #include "test_host.hpp"
 
 #include <gnomon/backend/kernel.hpp>
@@ -197,49 +195,4 @@ TEST_CASE("a lost device is said once and for all", "[vulkan][backend]") {
     }
     CHECK(device->live().total() == 0);
     CHECK(device->take_messages() == "");
-}
-
-TEST_CASE("frames after the first make nothing and ask for no memory", "[vulkan][backend][memory]") {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::GpuRef const gpu = device->gpu();
-    auto const frame = [](backend::Backend& b, std::span<backend::BufferId const> buffers, std::span<std::byte> bytes) {
-        bool ok = true;
-        backend::BufferId const back[] = {buffers[1], buffers[0]};
-        for (std::uint32_t i = 0; i < 100; ++i) {
-            b.stage(i % 2 == 0 ? "even" : "odd");
-            ok = ok && b.write(buffers[0], i * 4, bytes.subspan(i, 100));
-            Affine const affine{256, 3, i};
-            ok = ok && b.run(affine_kernel, {256, i % 2 == 0 ? buffers : back, {}, backend::bytes_of(affine)});
-            ok = ok && b.read(buffers[1], 0, bytes.subspan(0, 64));
-        }
-        return ok && b.finish().has_value();
-    };
-    std::vector<std::byte> bytes(1024);
-    SECTION("Vulkan objects, on the device") {
-        vulkan::test::TestHost host(*device);
-        auto const b = backend_on(gpu, host.host());
-        backend::BufferId const buffers[] = {*b->make_buffer(1024), *b->make_buffer(1024)};
-        REQUIRE(frame(*b, buffers, bytes));
-        std::uint64_t const made = device->live().calls;
-        for (int i = 0; i < 20; ++i) REQUIRE(frame(*b, buffers, bytes));
-        CHECK(device->live().calls == made);
-        CHECK(device->take_messages() == "");
-    }
-    SECTION("memory of the program, on a driver that asks for none") {
-        vulkan::Host const host{nullptr,
-                                [](void*, VkCommandBuffer& out) {
-                                    out = reinterpret_cast<VkCommandBuffer>(8);
-                                    return VK_SUCCESS;
-                                },
-                                [](void*, VkCommandBuffer) { return VK_SUCCESS; }};
-        auto const b = backend_on(vulkan::test::null_gpu(gpu->properties, gpu->features), host);
-        backend::BufferId const buffers[] = {*b->make_buffer(1024), *b->make_buffer(1024)};
-        for (int i = 0; i < 2; ++i) REQUIRE(frame(*b, buffers, bytes));
-        std::uint64_t const before = allocations_made();
-        bool ok = true;
-        for (int i = 0; i < 20; ++i) ok = frame(*b, buffers, bytes) && ok;
-        CHECK(allocations_made() == before);
-        CHECK(ok);
-    }
 }
