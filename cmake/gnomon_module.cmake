@@ -8,7 +8,7 @@
 #     [TEST_DEPENDS scene ...]         further modules of the tests and benchmarks; `check` is always there
 #     [TEST_PACKAGES tbb ...]          further packages of the tests and benchmarks; they are left out without them
 #     [SHADERS shaders/x.comp ...]     become `shaders/x_comp.hpp` for src/ (cmake/gnomon_shaders.cmake)
-#     [TEST_SHADERS tests/x.comp ...]  the same for the tests
+#     [TEST_SHADERS tests/x.comp ...]  the same for the tests and benchmarks
 #     [ADAPTERS gnomon/x/y.hpp[=need ...]]  headers that no other header includes, each with the package or module it needs
 #     [NO_UNITY])                      compile the tests and sources one by one
 #
@@ -173,6 +173,9 @@ macro(_gnomon_bench)
   if(benches AND NOT missing)
     add_executable(${name}_bench ${benches})
     _gnomon_link_tools(${name}_bench)
+    if(m_TEST_SHADERS)
+      gnomon_shaders(${name}_bench gnomon::${name}::test ${m_TEST_SHADERS})
+    endif()
     target_link_libraries(${name}_bench PRIVATE ${GNOMON_benchmark_TARGET})
     if(TARGET benchmark::benchmark_main)
       target_link_libraries(${name}_bench PRIVATE benchmark::benchmark_main)
