@@ -81,10 +81,11 @@ void axis_titles(std::string& svg) {
 }
 
 /// Marks on the upper edge: how many times as fast as `ray`.
-void speed_axis(std::string& svg, LogAxis const& x, double ray_ms) {
+void speed_axis(std::string& svg, LogAxis const& x, RayTime const& ray) {
+    double const ray_ms = ray.ms;
     auto out = std::back_inserter(svg);
-    fmt::format_to(out, "<text class='axis' x='{}' y='16' text-anchor='middle'>speed, as a multiple of ray</text>\n",
-                   (left + width - right) / 2);
+    fmt::format_to(out, "<text class='axis' x='{}' y='16' text-anchor='middle'>speed, as a multiple of {}</text>\n",
+                   (left + width - right) / 2, escaped(ray.name));
     for (double value = round_down(ray_ms / x.high); value <= ray_ms / x.low * 1.0001; value = next_step(value)) {
         double const where = x.fraction(ray_ms / value);
         if (where < -0.001 || where > 1.001) continue;
@@ -197,7 +198,7 @@ LogAxis axis_over(std::span<double const> values) {
     return axis;
 }
 
-std::string plot_svg(std::span<PlotPoint const> points, std::optional<double> ray_ms) {
+std::string plot_svg(std::span<PlotPoint const> points, std::optional<RayTime> const& ray) {
     std::vector<double> times;
     std::vector<double> errors;
     for (PlotPoint const& point : points) {
@@ -210,7 +211,7 @@ std::string plot_svg(std::span<PlotPoint const> points, std::optional<double> ra
         "<svg class='plot' viewBox='0 0 {} {}' role='img' aria-label='Speed against error'>\n", width, height);
     grid(svg, x, y);
     axis_titles(svg);
-    if (ray_ms && *ray_ms > 0.0) speed_axis(svg, x, *ray_ms);
+    if (ray && ray->ms > 0.0) speed_axis(svg, x, *ray);
     std::vector<Placed> at;
     std::vector<Box> taken;
     for (PlotPoint const& point : points) {

@@ -33,7 +33,13 @@ struct LogAxis {
 /// The narrowest axis that has every positive value of `values` well inside; 1 to 10 for none.
 [[nodiscard]] LogAxis axis_over(std::span<double const> values);
 
-/// The SVG element, colours by CSS classes of the page. `ray_ms`: adds an axis on top in multiples of it.
-[[nodiscard]] std::string plot_svg(std::span<PlotPoint const> points, std::optional<double> ray_ms);
+/// What an axis of speeds counts in.
+struct RayTime {
+    double ms = 0.0;
+    std::string name = "ray";
+};
+
+/// The SVG element, colours by CSS classes of the page. `ray`: adds an axis on top in multiples of it.
+[[nodiscard]] std::string plot_svg(std::span<PlotPoint const> points, std::optional<RayTime> const& ray);
 
 }  // namespace gnomon::command
