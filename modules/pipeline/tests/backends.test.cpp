@@ -197,8 +197,9 @@ TEST_CASE("what a frame does not change is staged once", "[pipeline][backend]") 
 
 TEST_CASE("a workspace follows frames, geometry and backends", "[pipeline][backend]") {
     core::SerialExecutor serial;
-    pipeline::Frame const a = tree_frame();
-    pipeline::Frame const b = tree().frame(test_sun_of_tree(), 48);
+    Built const cubes("cubes");
+    pipeline::Frame const a = cubes.frame(test_sun_of_tree());
+    pipeline::Frame const b = cubes.frame(test_sun_of_tree(), 48);
     Built const cage("cage");
     pipeline::Frame const c = cage.frame(pipeline::bulb(math::dvec3(0.5, 4.0, 0.5)));
     raster::CpuBackend one(serial);
@@ -206,7 +207,7 @@ TEST_CASE("a workspace follows frames, geometry and backends", "[pipeline][backe
     pipeline::Workspace kept;
     for (pipeline::Technique const& technique : pipeline::techniques())
         for (auto const& [frame, device] :
-             {std::pair{&a, &one}, {&b, &one}, {&a, &one}, {&c, &one}, {&c, &two}, {&a, &two}, {&a, &one}}) {
+             {std::pair{&a, &one}, {&b, &one}, {&a, &one}, {&c, &one}, {&c, &two}, {&a, &one}}) {
             pipeline::Workspace fresh;
             backend::Backend& own = fresh.own_backend(serial);
             CHECK(output_of(*frame, technique.name, kept, *device).visibility ==
