@@ -4,6 +4,7 @@
 #include <gnomon/check/check.hpp>
 
 #include <array>
+#include <cmath>
 
 using namespace gnomon;
 using namespace gnomon::vulkan::test;
@@ -57,6 +58,44 @@ std::vector<backend::PassLayer> views_of_layers(math::ivec2 size_px) {
         layers.push_back(layer);
     }
     return layers;
+}
+
+bool is_before_near(backend::PassLayer const& layer, math::vec3 const& position) {
+    math::vec3 const p = position - layer.origin;
+    math::mat4 const& m = layer.clip_from_relative;
+    float const z = ((m[0].z * p.x + m[1].z * p.y) + m[2].z * p.z) + m[3].z;
+    float const w = ((m[0].w * p.x + m[1].w * p.y) + m[2].w * p.z) + m[3].w;
+    return z > w;
+}
+
+double determinant(double const (&m)[3][3]) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/// |dz/dx| + |dz/dy| a pixel, from the homogeneous corners, wherever they are: z = a x + b y + c w.
+double slope_a_pixel(backend::PassLayer const& layer, Soup const& soup, std::uint32_t triangle, int size_px) {
+    double corner[3][3];
+    double z[3];
+    math::mat4 const& m = layer.clip_from_relative;
+    for (std::size_t k = 0; k < 3; ++k) {
+        math::vec3 const p = soup.positions[soup.indices[3 * triangle + k]] - layer.origin;
+        double clip[4];
+        for (math::axis_t r = 0; r < 4; ++r)
+            clip[r] = static_cast<double>(((m[0][r] * p.x + m[1][r] * p.y) + m[2][r] * p.z) + m[3][r]);
+        corner[k][0] = clip[0];
+        corner[k][1] = clip[1];
+        corner[k][2] = clip[3];
+        z[k] = clip[2];
+    }
+    double sum = 0.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        double with_z[3][3];
+        for (int k = 0; k < 3; ++k)
+            for (int c = 0; c < 3; ++c) with_z[k][c] = c == axis ? z[k] : corner[k][c];
+        sum += std::abs(determinant(with_z) / determinant(corner));
+    }
+    return sum * 2.0 / size_px;
 }
 
 }  // namespace
@@ -135,6 +174,48 @@ TEST_CASE("of equal depths the first drawn stays, whatever its culling; ids chan
         for (std::size_t i = 0; i < gpu.triangle.size(); ++i) others += gpu.triangle[i] != cpu.triangle[i] ? 1U : 0U;
         CHECK(others <= 2);  // Of 16,384: an edge, or two soups' triangles that meet.
     }
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("of triangles cut by the near plane coverage differs by less than a pixel in eight cut edges, depth by the CPU's "
+          "1/512 pixel",
+          "[vulkan][pass]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    PassRig rig(*device, device->gpu());
+    std::uint64_t cut_edges = 0;
+    std::uint64_t apart = 0;
+    std::uint64_t too_far = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        Random random{seed + 900};
+        Soup soup;
+        for (int i = 0; i < 60; ++i)
+            for (int k = 0; k < 3; ++k) {
+                float const far = i % 6 == 0 ? 3000.0F : 3.0F;
+                soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
+                soup.positions.emplace_back(random.in(-far, far), random.in(-far, far), random.in(-8, 3));
+            }
+        backend::Draw const draw = soup.draw();
+        backend::PassLayer const layer = layer_of(camera({160, 160}));
+        for (std::size_t i = 0; i < soup.positions.size(); ++i) {
+            std::size_t const next = i % 3 == 2 ? i - 2 : i + 1;
+            cut_edges += is_before_near(layer, soup.positions[i]) != is_before_near(layer, soup.positions[next]) ? 1U : 0U;
+        }
+        Passes const passes{{layer}};
+        backend::TargetConfig const config{.size_px = {160, 160}, .triangle_ids = true};
+        Pixels const cpu = draw_on_cpu({&draw, 1}, config, passes);
+        Pixels const gpu = rig.draw_all({&draw, 1}, config, passes);
+        for (std::size_t i = 0; i < cpu.depth.size(); ++i) {
+            std::uint32_t const triangle = cpu.triangle[i];
+            double const between = std::abs(static_cast<double>(cpu.depth[i]) - static_cast<double>(gpu.depth[i]));
+            if (triangle != gpu.triangle[i]) apart += between > 2e-6 ? 1U : 0U;
+            else if (between > 2e-6) too_far += between > 4e-6 + slope_a_pixel(layer, soup, triangle, 160) * 0x1p-9 ? 1U : 0U;
+        }
+    }
+    INFO(std::to_string(apart) + " px apart, " + std::to_string(cut_edges) + " edges cut");
+    CHECK(cut_edges > 300);
+    CHECK(apart * 8 <= cut_edges);
+    CHECK(too_far == 0);
     CHECK(device->take_messages() == "");
 }
 
