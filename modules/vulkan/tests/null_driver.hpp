@@ -5,9 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
+#include <deque>
 #include <memory>
 #include <type_traits>
+#include <vector>
 
 namespace gnomon::vulkan::test {
 
@@ -74,10 +75,11 @@ inline VKAPI_ATTR VkResult VKAPI_CALL make_memory(VkDevice, VkMemoryAllocateInfo
     *out = handle_of<VkDeviceMemory>(info->allocationSize);
     return VK_SUCCESS;
 }
-/// Never freed: the tests that use it are short.
+/// Freed when the program ends: the tests that use it are short.
+inline std::deque<std::vector<std::byte>> mapped;
 inline VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice, VkDeviceMemory memory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags,
                                           void** out) {
-    *out = std::calloc(1, static_cast<std::size_t>(size_of(memory)));
+    *out = mapped.emplace_back(static_cast<std::size_t>(size_of(memory))).data();
     return VK_SUCCESS;
 }
 inline VKAPI_ATTR VkResult VKAPI_CALL make_sets(VkDevice, VkDescriptorSetAllocateInfo const* info, VkDescriptorSet* out) {
