@@ -28,7 +28,7 @@ struct AlphaTest {
     uint wrap_u;
     uint wrap_v;
     float least;  // Of alpha in [0, 255]: what passes.
-    uvec2 unused;
+    uvec2 least_exact;  // The same in double: the low word first.
 };
 
 layout(set = 0, binding = 0, std140) uniform Views { View views[64]; };
@@ -41,4 +41,6 @@ layout(push_constant) uniform Push {
     uint instanced;     // Number of matrices.
     float bias_constant;
     float bias_slope;
+    vec2 viewport_px;       // Its top left.
+    vec2 viewport_size_px;
 } push;

@@ -1,8 +1,8 @@
-// The vertex shader of a pass. Sums are in the order of the CPU's kernels, so clip coordinates are the same bits.
+// The vertex shader of a pass.
 
 #include "pass_interface.glsl"
+#include "pass_corner.glsl"
 
-layout(set = 0, binding = 2, std430) readonly buffer Matrices { vec4 matrices[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Coordinates { vec2 coordinates[]; };
 #ifdef GNOMON_PULLED
 layout(set = 0, binding = 6, std430) readonly buffer Positions { float positions[]; };
@@ -16,14 +16,14 @@ layout(constant_id = 1) const bool clamps_in_shader = false;
 
 layout(location = 0) out vec2 uv;
 layout(location = 1) flat out uint triangle;  // Of the item's first triangle; of this one where corners are pulled.
-layout(location = 2) flat out uint alpha;
+layout(location = 2) flat out uint slot;
 layout(location = 3) out float depth_times_w;
 #ifdef GNOMON_GEOMETRY
 layout(location = 4) flat out uint layer;
 #endif
 
 void main() {
-    uint slot = uint(gl_InstanceIndex);
+    slot = uint(gl_InstanceIndex);
     Item item = items[slot / push.layers];
     uint view = push.first_view + slot % push.layers;
 #ifdef GNOMON_PULLED
@@ -35,20 +35,11 @@ void main() {
     vec3 position = position_in;
     triangle = item.first_triangle;
 #endif
-    vec4 m[4];
-    if (item.matrix != none) {
-        uint at = (item.matrix * push.matrix_views + view) * 4u;
-        for (int i = 0; i < 4; ++i) m[i] = matrices[at + uint(i)];
-    } else {
-        for (int i = 0; i < 4; ++i) m[i] = views[view].column[i];
-        position -= views[view].origin;
-    }
-    vec4 clip = ((m[0] * position.x + m[1] * position.y) + m[2] * position.z) + m[3];
+    vec4 clip = clip_of(item, view, position);
     // Corners that are NaN, infinite or beyond 2^60 take their triangle along.
     if (!all(lessThanEqual(abs(clip), vec4(1.152921504606846976e18)))) clip = uintBitsToFloat(uvec4(0x7FC00000u));
     if (all(equal(item.groups & views[view].groups, uvec2(0u)))) clip = vec4(2.0, 2.0, 0.0, 1.0);
 
-    alpha = item.alpha;
     uv = is_masked && item.alpha != none ? coordinates[corner + item.uv_shift] : vec2(0.0);
     depth_times_w = clip.z;
     if (clamps_in_shader) clip.z = 0.0;

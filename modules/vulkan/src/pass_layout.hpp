@@ -39,7 +39,7 @@ struct AlphaData {
     std::uint32_t wrap_u;
     std::uint32_t wrap_v;
     float least;
-    std::uint32_t unused[2];
+    std::uint32_t least_exact[2];
 };
 static_assert(sizeof(AlphaData) == 32);
 
@@ -50,8 +50,10 @@ struct PassPush {
     std::uint32_t instanced = 0;
     float bias_constant = 0.0F;
     float bias_slope = 0.0F;
+    float viewport_px[2] = {0.0F, 0.0F};
+    float viewport_size_px[2] = {1.0F, 1.0F};
 };
-static_assert(sizeof(PassPush) == 24);
+static_assert(sizeof(PassPush) == 40 && offsetof(PassPush, viewport_px) == 24);
 
 enum Binding : std::uint32_t {
     binding_views,

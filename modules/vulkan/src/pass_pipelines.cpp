@@ -6,9 +6,11 @@
 #include "pass_layout.hpp"
 
 #include "shaders/depth_clamped_frag.hpp"
+#include "shaders/depth_exact_frag.hpp"
 #include "shaders/depth_frag.hpp"
 #include "shaders/for_geometry_vert.hpp"
 #include "shaders/ids_clamped_frag.hpp"
+#include "shaders/ids_exact_frag.hpp"
 #include "shaders/ids_frag.hpp"
 #include "shaders/instances_comp.hpp"
 #include "shaders/layered_geom.hpp"
@@ -59,6 +61,15 @@ Source vertex_source(LayerMode mode, bool pulled) noexcept {
     return pulled ? Source{pulled_vert, "pulled.vert"} : Source{plain_vert, "plain.vert"};
 }
 
+/// Whether the device can make alpha tests as the CPU does: in double, from the triangle that gl_PrimitiveID names.
+bool tests_alpha_exactly(Features const& features) noexcept {
+    return features.shader_float64 && features.geometry_shader;
+}
+
+Source exact_source(bool ids) noexcept {
+    return ids ? Source{ids_exact_frag, "ids_exact.frag"} : Source{depth_exact_frag, "depth_exact.frag"};
+}
+
 Source fragment_source(bool ids, bool pulled, bool clamped) noexcept {
     if (!ids) return clamped ? Source{depth_clamped_frag, "depth_clamped.frag"} : Source{depth_frag, "depth.frag"};
     if (!pulled) return clamped ? Source{ids_clamped_frag, "ids_clamped.frag"} : Source{ids_frag, "ids.frag"};
@@ -69,10 +80,11 @@ Source fragment_source(bool ids, bool pulled, bool clamped) noexcept {
 Result<UniqueSetLayout> make_set_layout(GpuRef const& gpu) {
     VkDescriptorSetLayoutBinding bindings[detail::binding_count];
     for (std::uint32_t i = 0; i < detail::binding_count; ++i)
-        bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr};
+        bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1,
+                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     bindings[detail::binding_views].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
-    bindings[detail::binding_views].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
-    bindings[detail::binding_matrices].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+    bindings[detail::binding_views].stageFlags |= VK_SHADER_STAGE_COMPUTE_BIT;
+    bindings[detail::binding_matrices].stageFlags |= VK_SHADER_STAGE_COMPUTE_BIT;
     bindings[detail::binding_alpha_tests].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
     bindings[detail::binding_texels].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
     bindings[detail::binding_instances].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -145,7 +157,9 @@ Result<UniquePipeline> make_pipeline(PassPipelines const& passes, PassKind const
     }
     UniqueShader fragment;
     if (kind.triangle_ids || kind.masked || clamps_in_shader) {
-        Source const source = fragment_source(kind.triangle_ids, pulled, clamps_in_shader);
+        bool const exact = kind.masked && !clamps_in_shader && tests_alpha_exactly(gpu->features);
+        Source const source =
+            exact ? exact_source(kind.triangle_ids) : fragment_source(kind.triangle_ids, pulled, clamps_in_shader);
         auto made = make_shader(gpu, source.words, source.name);
         if (!made) return std::move(made).failure();
         fragment = *std::move(made);

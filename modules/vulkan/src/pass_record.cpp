@@ -11,14 +11,15 @@ namespace gnomon::vulkan::detail {
 namespace {
 
 constexpr VkPipelineStageFlags2 copy_stage = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-constexpr VkPipelineStageFlags2 vertex_stage = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
+constexpr VkPipelineStageFlags2 draw_stages =
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 constexpr VkPipelineStageFlags2 compute_stage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
 /// Before a slot or the matrices are written again: what was recorded with them has read them.
 void wait_for_readers(DrawList::State const& list, VkCommandBuffer commands) {
     if (list.next_slot != 0 && list.instanced == 0) return;
     constexpr VkAccessFlags2 writes = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    record_barrier(*list.pipelines->gpu(), commands, {vertex_stage | compute_stage | copy_stage, writes},
+    record_barrier(*list.pipelines->gpu(), commands, {draw_stages | compute_stage | copy_stage, writes},
                    {compute_stage | copy_stage, writes});
 }
 
@@ -85,7 +86,7 @@ std::uint32_t record_views(VkCommandBuffer commands, DrawList::State& list, Chun
     record_barrier(gpu, commands,
                    {copy_stage | compute_stage,
                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                   {vertex_stage, VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
+                   {draw_stages, VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
     return offset;
 }
 

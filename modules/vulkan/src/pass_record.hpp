@@ -5,6 +5,7 @@
 #include <gnomon/vulkan/target.hpp>
 
 #include "draw_list.hpp"
+#include "pass_layout.hpp"
 #include "pass_plan.hpp"
 
 namespace gnomon::vulkan::detail {
@@ -41,6 +42,14 @@ void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint3
 
 /// Viewport, scissor and depth compare of a bundle.
 void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle);
+
+/// Where a fragment shader finds its pixel in clip space.
+inline void set_viewport(PassPush& push, backend::Rect const& viewport) noexcept {
+    push.viewport_px[0] = static_cast<float>(viewport.x);
+    push.viewport_px[1] = static_cast<float>(viewport.y);
+    push.viewport_size_px[0] = static_cast<float>(viewport.width);
+    push.viewport_size_px[1] = static_cast<float>(viewport.height);
+}
 
 /// Clears the bundle's area in one layer of the rendering.
 void clear_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle, std::uint32_t layer, bool triangle_ids);

@@ -236,6 +236,7 @@ Result<core::Done> SampleQueries::record_draws(VkCommandBuffer commands, DrawLis
     set_state(*gpu_, commands, bundle);
     detail::PassPush push;
     push.matrix_views = 1;
+    detail::set_viewport(push, bundle.viewport);
     gpu_->call.CmdPushConstants(commands, passes.layout(), detail::push_stages, 0, sizeof push, &push);
     auto const draw = [&](std::uint32_t i) {
         std::uint32_t const at = list.command_of[i];

@@ -3,6 +3,7 @@
 #include <gnomon/math/scalar.hpp>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -137,7 +138,9 @@ class Stager {
         data.height = test.texture.size_px.y;
         data.wrap_u = static_cast<std::uint32_t>(test.texture.wrap_u);
         data.wrap_v = static_cast<std::uint32_t>(test.texture.wrap_v);
-        data.least = least_alpha(test.factor, test.cutoff);
+        LeastAlpha const least = least_alpha(test.factor, test.cutoff);
+        data.least = least.single;
+        std::memcpy(data.least_exact, &least.exact, sizeof least.exact);
         for (std::size_t i = 0; i < out.alpha_tests.size(); ++i)
             if (is_same(out.alpha_tests[i], data)) return static_cast<std::uint32_t>(i);
         out.alpha_tests.push_back(data);
@@ -146,7 +149,8 @@ class Stager {
 
     static bool is_same(AlphaData const& a, AlphaData const& b) noexcept {
         return a.first_texel == b.first_texel && a.width == b.width && a.height == b.height && a.wrap_u == b.wrap_u &&
-               a.wrap_v == b.wrap_v && a.least == b.least;
+               a.wrap_v == b.wrap_v && a.least == b.least && a.least_exact[0] == b.least_exact[0] &&
+               a.least_exact[1] == b.least_exact[1];
     }
 
     std::uint32_t add_coordinates(core::StridedSpan<math::vec2> const& uv, std::size_t count) {
@@ -180,19 +184,30 @@ class Stager {
 
 }  // namespace
 
-float least_alpha(double factor, double cutoff) noexcept {
-    auto const passes = [&](double s) { return s / 255.0 * factor >= cutoff; };
-    if (!passes(255.0)) return std::numeric_limits<float>::infinity();
-    if (passes(0.0)) return -1.0F;
-    // Between them by bisection over the floats, whose order is that of their bits.
-    float low = 0.0F;
-    float high = 255.0F;
+namespace {
+
+/// The least number s in [0, 255] with s / 255 * factor >= cutoff, by bisection.
+template <class T>
+T least_passing(double factor, double cutoff) noexcept {
+    auto const passes = [&](T s) { return static_cast<double>(s) / 255.0 * factor >= cutoff; };
+    if (!passes(T{255})) return std::numeric_limits<T>::infinity();
+    if (passes(T{0})) return T{-1};
+    T low{0};
+    T high{255};
     while (std::nextafter(low, high) < high) {
-        float const middle = low + (high - low) * 0.5F;
-        float const at = middle > low && middle < high ? middle : std::nextafter(low, high);
-        (passes(static_cast<double>(at)) ? high : low) = at;
+        T const middle = low + (high - low) / 2;
+        T const at = middle > low && middle < high ? middle : std::nextafter(low, high);
+        (passes(at) ? high : low) = at;
     }
-    return high < 0x1p-100F ? 0x1p-100F : high;  // Devices may take denormals for 0.
+    return high;
+}
+
+}  // namespace
+
+LeastAlpha least_alpha(double factor, double cutoff) noexcept {
+    float const single = least_passing<float>(factor, cutoff);
+    bool const is_tiny = single > 0.0F && single < 0x1p-100F;  // Devices may take denormals for 0.
+    return {is_tiny ? 0x1p-100F : single, least_passing<double>(factor, cutoff)};
 }
 
 Result<StagedDraws> stage_draws(std::span<backend::Draw const> draws, bool alpha_tests) {

@@ -31,8 +31,12 @@ struct StagedDraws {
 /// returns: the arrays, or `too_large` where 32 bits do not count them.
 [[nodiscard]] Result<StagedDraws> stage_draws(std::span<backend::Draw const> draws, bool alpha_tests);
 
-/// The least float s in [0, 255] with s / 255 * factor >= cutoff in double; +infinity where none passes, -1 where all
-/// do; never below 2^-100.
-[[nodiscard]] float least_alpha(double factor, double cutoff) noexcept;
+/// The least alpha in [0, 255] that passes: s / 255 * factor >= cutoff in double. +infinity where none passes, -1 where
+/// all do.
+struct LeastAlpha {
+    float single;
+    double exact;
+};
+[[nodiscard]] LeastAlpha least_alpha(double factor, double cutoff) noexcept;
 
 }  // namespace gnomon::vulkan::detail

@@ -32,9 +32,10 @@ TEST_CASE("the passes' structs lie in GLSL as they do in C++", "[vulkan][pass]")
     CHECK(vulkan::members_of(words, "Push") ==
           Members{GNOMON_MEMBER(PassPush, first_view), GNOMON_MEMBER(PassPush, layers), GNOMON_MEMBER(PassPush, matrix_views),
                   GNOMON_MEMBER(PassPush, instanced), GNOMON_MEMBER(PassPush, bias_constant),
-                  GNOMON_MEMBER(PassPush, bias_slope)});
+                  GNOMON_MEMBER(PassPush, bias_slope), GNOMON_MEMBER(PassPush, viewport_px),
+                  GNOMON_MEMBER(PassPush, viewport_size_px)});
     CHECK(vulkan::members_of(words, "AlphaTest") ==
           Members{GNOMON_MEMBER(AlphaData, first_texel), GNOMON_MEMBER(AlphaData, width), GNOMON_MEMBER(AlphaData, height),
                   GNOMON_MEMBER(AlphaData, wrap_u), GNOMON_MEMBER(AlphaData, wrap_v), GNOMON_MEMBER(AlphaData, least),
-                  GNOMON_MEMBER(AlphaData, unused)});
+                  GNOMON_MEMBER(AlphaData, least_exact)});
 }
