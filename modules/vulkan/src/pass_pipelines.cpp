@@ -61,11 +61,6 @@ Source vertex_source(LayerMode mode, bool pulled) noexcept {
     return pulled ? Source{pulled_vert, "pulled.vert"} : Source{plain_vert, "plain.vert"};
 }
 
-/// Whether the device can make alpha tests as the CPU does: in double, from the triangle that gl_PrimitiveID names.
-bool tests_alpha_exactly(Features const& features) noexcept {
-    return features.shader_float64 && features.geometry_shader;
-}
-
 Source exact_source(bool ids) noexcept {
     return ids ? Source{ids_exact_frag, "ids_exact.frag"} : Source{depth_exact_frag, "depth_exact.frag"};
 }
@@ -157,7 +152,7 @@ Result<UniquePipeline> make_pipeline(PassPipelines const& passes, PassKind const
     }
     UniqueShader fragment;
     if (kind.triangle_ids || kind.masked || clamps_in_shader) {
-        bool const exact = kind.masked && !clamps_in_shader && tests_alpha_exactly(gpu->features);
+        bool const exact = kind.masked && !clamps_in_shader && passes.tests_alpha_exactly();
         Source const source =
             exact ? exact_source(kind.triangle_ids) : fragment_source(kind.triangle_ids, pulled, clamps_in_shader);
         auto made = make_shader(gpu, source.words, source.name);

@@ -50,6 +50,13 @@ class PassPipelines {
     /// Whether passes with triangle ids pull corners from buffers, for want of gl_PrimitiveID.
     [[nodiscard]] bool pulls_ids() const noexcept { return !gpu_->features.geometry_shader; }
     [[nodiscard]] bool alpha_tests() const noexcept { return config_.alpha_tests; }
+    /// Whether alpha tests are made as the CPU makes them: in double, from the corners of the triangle that
+    /// gl_PrimitiveID names. Else in float, from interpolated coordinates.
+    [[nodiscard]] bool tests_alpha_exactly() const noexcept {
+        return config_.alpha_tests && gpu_->features.shader_float64 && gpu_->features.geometry_shader;
+    }
+    /// Whether shaders read positions and indices as storage buffers.
+    [[nodiscard]] bool reads_corners() const noexcept { return pulls_ids() || tests_alpha_exactly(); }
 
   private:
     friend Result<std::shared_ptr<PassPipelines const>> make_pass_pipelines(GpuRef const& gpu,
