@@ -22,10 +22,7 @@ constexpr std::uint32_t pixels = picture_px * picture_px;
 std::vector<math::vec3> const corners = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {-5, 0, -5}, {5, 0, 5}, {5, 0, -5},
                                          {-2, 2, -2}, {-2, 2, 2}, {2, 2, 2}, {-2, 2, -2}, {2, 2, 2}, {2, 2, -2}};
 
-struct Light {  // the shader's buffer
-    shadow::MapView map;
-    formula::GnShadowConfig config;
-};
+struct Light { shadow::MapView map; formula::GnShadowConfig config; };  // the shader's buffer
 
 /// What every program that draws with Vulkan has; queue family 0 is taken to draw and compute.
 struct Engine {
