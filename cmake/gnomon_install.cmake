@@ -25,7 +25,7 @@ function(gnomon_install_package)
   set(GNOMON_FIND_DEPENDENCIES "")
   foreach(package IN LISTS linked)
     list(GET GNOMON_PACKAGE_${package} 0 cmake_name)
-    if(NOT cmake_name STREQUAL "HEADER") # a header folder is used inside only
+    if(NOT cmake_name MATCHES "^(HEADER|LIBRARY|PROGRAM)$") # used inside only
       string(APPEND GNOMON_FIND_DEPENDENCIES "find_dependency(${cmake_name})\n")
     endif()
   endforeach()

@@ -97,9 +97,9 @@ macro(_gnomon_library)
   if(m_SHADERS)
     gnomon_shaders(${target} gnomon::${name} ${m_SHADERS})
   endif()
-  # What a compiled module uses inside stays inside; GLM is in the public types.
+  # What a compiled module uses inside stays inside; the types of GLM and Vulkan are in public headers.
   foreach(package IN LISTS m_PACKAGES)
-    if(m_SOURCES AND NOT package STREQUAL "glm")
+    if(m_SOURCES AND NOT package MATCHES "^(glm|vulkan_headers)$")
       gnomon_use(${target} PRIVATE ${package})
     else()
       gnomon_use(${target} ${scope} ${package})
