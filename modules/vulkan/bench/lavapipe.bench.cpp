@@ -1,11 +1,9 @@
-// Ours against lavapipe, one thread each and one core for both, the two interleaved in one run: medians of eleven, and how
-// the images differ.
+// The CPU rasterizer against lavapipe, one thread each and one core for both, the two interleaved in one run: medians of
+// eleven, and how the images differ.
 //
 // `ms`, `lavapipe_ms`: CPU time of the whole process between submit and done, which is one thread's work on either side
 // and stays honest on a loaded machine; `wall_*`: the clock on the wall. `ratio` is lavapipe_ms / ms. `memset_ms`
 // writes the image once, which no pass can do without.
-
-#if GNOMON_HAS_VULKAN
 
 #include <gnomon/raster.hpp>
 
@@ -15,10 +13,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "city.hpp"
-#include "clocks.hpp"
+#include "../../raster/bench/city.hpp"
+#include "../../raster/bench/clocks.hpp"
+#include "../../raster/bench/one_core.hpp"
 #include "lavapipe_pass.hpp"
-#include "one_core.hpp"
 
 namespace {
 
@@ -103,5 +101,3 @@ BENCHMARK(against_lavapipe)
     ->Iterations(11);
 
 }  // namespace
-
-#endif
