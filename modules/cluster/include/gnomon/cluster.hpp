@@ -1,0 +1,4 @@
+#pragma once
+// Who divides a view: grids of clusters and their planes.
+
+#include <gnomon/cluster/grid_view.hpp>
