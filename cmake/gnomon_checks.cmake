@@ -92,7 +92,7 @@ macro(_gnomon_header_checks)
 endmacro()
 
 # _gnomon_formula_shader(FILE FORMULA): writes a shader that includes nothing but the formula file, says what a texel
-# is (see math/README.md) and calls each of its functions, which glslc would leave out otherwise.
+# and a word is (see math/README.md) and calls each of its functions, which glslc would leave out otherwise.
 function(_gnomon_formula_shader file formula)
   set(source "${CMAKE_CURRENT_SOURCE_DIR}/include/${formula}")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
@@ -120,6 +120,8 @@ function(_gnomon_formula_shader file formula)
 #extension GL_GOOGLE_include_directive : require
 #define GN_TEXELS int
 #define GN_TEXEL(texels, x, y) float((texels) + (x) + (y))
+#define GN_WORDS int
+#define GN_WORD(words, i) (uint(words) + (i))
 #include <${formula}>
 void main() {
 ${calls}}

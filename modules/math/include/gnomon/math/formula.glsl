@@ -46,6 +46,9 @@
 #define GN_TEXELS_FN template <class S, class T> [[nodiscard, gnu::always_inline]] constexpr
 #define GN_TEXELS T const&
 #define GN_TEXEL(texels, x, y) gn_texel(texels, x, y)
+#define GN_WORDS_FN template <class S> [[nodiscard, gnu::always_inline]] constexpr
+#define GN_WORDS Words const&
+#define GN_WORD(words, i) gn_word(words, i)
 
 #else
 
@@ -67,6 +70,7 @@
 #define GN_ANY(mask) (mask)
 #define GN_IN(type) type
 #define GN_TEXELS_FN
+#define GN_WORDS_FN
 
 // What C++ has from formula.hpp: the least and the greatest, with a NaN in `b` leaving `a`.
 float gn_min(float a, float b) { return mix(a, b, b < a); }

@@ -11,6 +11,7 @@
 #include <gnomon/math/vec.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 
 // Inlined for certain, as math::Lanes is.
@@ -205,6 +206,25 @@ struct Vec4 {
         return {a.x * s, a.y * s, a.z * s, a.w * s};
     }
 };
+
+/// A table of words, as a shader has it in a storage buffer. Owns nothing.
+struct Words {
+    std::uint32_t const* data = nullptr;
+};
+
+/// What GN_WORD is in C++: one load for each lane.
+///
+/// expects: `i` within the table.
+template <class S>
+[[nodiscard, gnu::always_inline]] constexpr Uint<S> gn_word(Words const& words, Uint<S> const& i) noexcept {
+    if constexpr (requires { S::size; }) {
+        std::uint32_t loaded[S::size]{};
+        for (std::size_t lane = 0; lane < S::size; ++lane) loaded[lane] = words.data[i.v[lane]];
+        return {Uint<S>::Type::load(loaded)};
+    } else {
+        return {words.data[i.v]};
+    }
+}
 
 }  // namespace gnomon::formula
 
