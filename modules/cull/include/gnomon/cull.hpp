@@ -1,0 +1,4 @@
+#pragma once
+// Conservative tests of lights against clusters.
+
+#include <gnomon/cull/rows.hpp>

@@ -1,0 +1,77 @@
+#include "light_scenes.hpp"
+#include "oracle.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/cull/rows.hpp>
+
+#include <algorithm>
+#include <array>
+
+using namespace gnomon;
+
+namespace {
+
+struct RowCount {
+    std::size_t listed = 0, exact = 0, missed = 0, undecided = 0;
+};
+
+/// Is the ball surely clear of the cluster, by bounds of its own?
+bool surely_clear(cluster::GridView const& g, test::Cell c, test::SceneLight const& light) {
+    auto const d = static_cast<double>(light.center.z), r = static_cast<double>(light.range) * 1.001 + 1e-3;
+    double const near = std::max(static_cast<double>(g.depth_m[c.slice]), d - r);
+    double const far = std::min(static_cast<double>(g.depth_m[c.slice + 1]), d + r);
+    if (near > far) return true;
+    auto const apart = [&](float low, float high, float at) {
+        double const l = std::min(static_cast<double>(low) * near, static_cast<double>(low) * far);
+        double const h = std::max(static_cast<double>(high) * near, static_cast<double>(high) * far);
+        return static_cast<double>(at) + r < l || static_cast<double>(at) - r > h;
+    };
+    return apart(g.x[c.column], g.x[c.column + 1], light.center.x) || apart(g.y[c.row], g.y[c.row + 1], light.center.y);
+}
+
+RowCount count_pairs(cluster::GridView const& view, cull::RowGrid const& grid, std::vector<test::SceneLight> const& lights) {
+    RowCount n;
+    for (test::SceneLight const& light : lights) {
+        cull::ReadyBall const ball = cull::ready_ball(light.center, light.range, grid.perspective);
+        for (std::uint32_t k = 0; k < grid.slices; ++k)
+            for (std::uint32_t j = 0; j < grid.rows; ++j) {
+                cull::Columns const got = cull::columns_of(grid, ball, j, k);
+                n.listed += got.count();
+                for (std::uint32_t i = 0; i < grid.columns; ++i) {
+                    bool const listed = got.first <= i && i <= got.last;
+                    if (!listed && surely_clear(view, {i, j, k}, light)) continue;
+                    test::Touch const truth = test::ball_touches(view, {i, j, k}, light.center, light.range);
+                    n.exact += truth == test::Touch::yes ? 1 : 0;
+                    n.undecided += truth == test::Touch::undecided ? 1 : 0;
+                    n.missed += truth != test::Touch::no && !listed ? 1 : 0;
+                }
+            }
+    }
+    return n;
+}
+
+}  // namespace
+
+TEST_CASE("the scenes of the yardsticks begin as printed", "[cull]") {
+    auto const v = test::make_lights(test::light_scenes[0], 1), d = test::make_lights(test::light_scenes[2], 1);
+    CHECK(v[0].center == math::vec3(80.755195F, -3.230628F, 92.484195F));
+    CHECK(std::abs(v[0].range - 1.706596F) < 1e-6F);
+    CHECK(std::abs(d[0].center.x - 69.090799F) < 1e-5F);
+    CHECK(std::abs(d[0].center.z - 79.125646F) < 1e-5F);
+}
+
+TEST_CASE("a ball's rows hold every cluster that it touches, and nearly nothing else", "[cull]") {
+    test::YardGrid const yard;
+    cluster::GridView const view = yard.view();
+    cull::RowGrid const grid = cull::make_row_grid(view);
+    std::array<std::size_t, 4> const printed_64{259, 2682, 2493, 32756}, printed_256{1081, 13248, 7921, 99265};
+    for (std::size_t s = 0; s < 4; ++s) {
+        RowCount const few = count_pairs(view, grid, test::make_lights(test::light_scenes[s], 64));
+        RowCount const many = count_pairs(view, grid, test::make_lights(test::light_scenes[s], 256));
+        CAPTURE(test::light_scenes[s].name, few.listed, many.listed, many.exact, many.undecided);
+        CHECK(few.exact == printed_64[s]);
+        CHECK(many.exact == printed_256[s]);
+        CHECK(few.missed + many.missed == 0);
+        CHECK(many.listed <= many.exact + many.exact / 1000);
+    }
+}
