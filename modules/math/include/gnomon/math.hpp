@@ -10,5 +10,6 @@
 #include <gnomon/math/plane.hpp>
 #include <gnomon/math/scalar.hpp>
 #include <gnomon/math/texel.hpp>
+#include <gnomon/math/touch.hpp>
 #include <gnomon/math/vec.hpp>
 #include <gnomon/math/view.hpp>
