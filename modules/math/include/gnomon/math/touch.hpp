@@ -43,7 +43,7 @@ namespace gnomon::math {
     // (1 + 4 e) and two steps hold what rounding to float and the sums of the length lose.
     for (axis_t axis = 0; axis < 3; ++axis) f.magnitude[axis] = next_up(std::abs(f.normal[axis]) * 1.0000003F) + 0x1p-100F;
     double const length = std::sqrt(scaled(n.x) * scaled(n.x) + scaled(n.y) * scaled(n.y) + scaled(n.z) * scaled(n.z));
-    f.length = next_up(next_up(detail::rounded(length)));
+    f.norm = next_up(next_up(detail::rounded(length)));
     return f;
 }
 

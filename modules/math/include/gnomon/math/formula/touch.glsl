@@ -22,12 +22,12 @@ GN_STRUCT(GnSphere) {
 };
 
 /// A half-space dot(normal, p) + offset >= 0. Each coefficient is within 2 e of its magnitude, and 2^-126, of the one
-/// that is meant; `length` is no less than the normal's length.
+/// that is meant; `norm` is no less than the normal's length.
 struct GnPlane {
     vec3 normal;
     float offset;
     vec3 magnitude;  // no less than |normal| + 2^-100, per axis
-    float length;
+    float norm;
 };
 
 GN_FN GN_BOOL gn_is_finite(GN_FLOAT x) { return abs(x) <= 3.402823466e38; }
@@ -119,7 +119,7 @@ GN_FN GN_BOOL gn_touches_plane_box(GN_IN(GnPlane) plane, GN_IN(GN_TYPE(GnBox)) b
 /// Half-space and sphere.
 GN_FN GN_BOOL gn_touches_plane_sphere(GN_IN(GnPlane) plane, GN_IN(GN_TYPE(GnSphere)) s) {
     GN_VEC3 c = s.center;
-    GN_PRECISE GN_FLOAT reach = s.radius * plane.length;
+    GN_PRECISE GN_FLOAT reach = s.radius * plane.norm;
     GN_PRECISE GN_FLOAT value =
         ((c.x * plane.normal.x + c.y * plane.normal.y) + (c.z * plane.normal.z + plane.offset)) + reach;
     GN_PRECISE GN_FLOAT magnitude = ((abs(c.x) * plane.magnitude.x + abs(c.y) * plane.magnitude.y) +
