@@ -3,4 +3,6 @@
 
 #include <gnomon/cluster/grid.hpp>
 #include <gnomon/cluster/grid_view.hpp>
+#include <gnomon/cluster/key.hpp>
+#include <gnomon/cluster/normal_cells.hpp>
 #include <gnomon/cluster/slices.hpp>
