@@ -47,9 +47,9 @@ GNOMON_AVX2_INLINE void move_depths_x4(Corner8 const (&v)[3], Sides8 const& side
     __m256d const d1 = _mm256_sub_pd(z[1], z[0]);
     __m256d const d2 = _mm256_sub_pd(z[2], z[0]);
     __m256d const true_area = _mm256_sub_pd(_mm256_mul_pd(x1, y2), _mm256_mul_pd(x2, y1));
-    __m256d const half = _mm256_mul_pd(wide(area, high), _mm256_set1_pd(0.5 * residue_scale * residue_scale));
+    __m256d const least_area = _mm256_mul_pd(wide(area, high), _mm256_set1_pd(0.0625 * residue_scale * residue_scale));
     __m256d const scale =
-        _mm256_and_pd(_mm256_div_pd(_mm256_set1_pd(1.0), true_area), _mm256_cmp_pd(true_area, half, _CMP_GE_OQ));
+        _mm256_and_pd(_mm256_div_pd(_mm256_set1_pd(1.0), true_area), _mm256_cmp_pd(true_area, least_area, _CMP_GE_OQ));
     __m256d const gx = _mm256_mul_pd(_mm256_sub_pd(_mm256_mul_pd(d1, y2), _mm256_mul_pd(d2, y1)), scale);
     __m256d const gy = _mm256_mul_pd(_mm256_sub_pd(_mm256_mul_pd(d2, x1), _mm256_mul_pd(d1, x2)), scale);
     __m256d const most = _mm256_max_pd(z[1], z[2]);

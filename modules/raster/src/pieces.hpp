@@ -138,7 +138,8 @@ struct Oriented {
 ///
 ///     z_i' = z_i - gradient . residue_i, at most 1/8 of the depths' range beyond the range, and not across 0 or 1
 ///
-/// A sliver that had less than half the area before snapping has no such plane worth following: its depths stay.
+/// A sliver that had less than a sixteenth of the area before snapping has no such plane worth following: its depths
+/// stay.
 /// expects: positive `area`, corner 0 the one with the least z, so that any order of the corners gives the same.
 inline void move_depths(Corner const* const (&v)[3], std::int64_t area, float (&z)[3]) noexcept {
     double const z0 = static_cast<double>(v[0]->z);
@@ -149,8 +150,8 @@ inline void move_depths(Corner const* const (&v)[3], std::int64_t area, float (&
     double const x2 = unsnapped(v[0]->x, v[2]->x, residue_x(*v[0]), residue_x(*v[2]));
     double const y2 = unsnapped(v[0]->y, v[2]->y, residue_y(*v[0]), residue_y(*v[2]));
     double const true_area = x1 * y2 - x2 * y1;
-    double const half_snapped = static_cast<double>(area) * (0.5 * residue_scale * residue_scale);
-    double const scale = true_area >= half_snapped ? 1.0 / true_area : 0.0;
+    double const least_area = static_cast<double>(area) * (0.0625 * residue_scale * residue_scale);
+    double const scale = true_area >= least_area ? 1.0 / true_area : 0.0;
     double const gx = ((z1 - z0) * y2 - (z2 - z0) * y1) * scale;
     double const gy = ((z2 - z0) * x1 - (z1 - z0) * x2) * scale;
     double const most = at_least(z1, z2);
