@@ -72,7 +72,8 @@ inline Mesh soup(std::size_t count, std::uint64_t seed = 1) {
     for (std::size_t i = 0; i < count; ++i) {
         vec3 const a = random.point(-50.0F, 50.0F);
         vec3 const b = a + random.point(-1.0F, 1.0F);
-        mesh.add(a, b, a + random.point(-1.0F, 1.0F), random.below(2));
+        vec3 const c = a + random.point(-1.0F, 1.0F);
+        mesh.add(a, b, c, random.below(2));
     }
     return mesh;
 }
@@ -100,8 +101,8 @@ inline Mesh town(std::size_t triangles) {
     std::uint32_t const cuts = n > 0 ? n : 1;
     add_face(mesh, vec3(-100.0F, 0.0F, -100.0F), vec3(0.0F, 0.0F, 200.0F), vec3(200.0F, 0.0F, 0.0F), 8 * cuts);
     for (std::uint32_t house = 0; house < 64; ++house) {
-        vec3 const at(25.0F * static_cast<float>(house % 8) - 90.0F + random.uniform(0.0F, 3.0F), 0.0F,
-                      25.0F * static_cast<float>(house / 8) - 90.0F + random.uniform(0.0F, 3.0F));
+        vec3 const at{25.0F * static_cast<float>(house % 8) - 90.0F + random.uniform(0.0F, 3.0F), 0.0F,
+                      25.0F * static_cast<float>(house / 8) - 90.0F + random.uniform(0.0F, 3.0F)};
         vec3 const x(random.uniform(8.0F, 13.0F), 0.0F, 0.0F);
         vec3 const y(0.0F, random.uniform(4.0F, 40.0F), 0.0F);
         vec3 const z(0.0F, 0.0F, random.uniform(8.0F, 13.0F));

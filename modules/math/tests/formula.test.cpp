@@ -113,14 +113,14 @@ TEST_CASE("the float projection of a point is within its bound of the double one
         auto const real = [&](std::size_t i) { return static_cast<double>(u[i]); };
         bool const perspective = kind < 2;
         math::PerspectiveConfig lens;
-        lens.eye_m = math::dvec3(real(0), real(1), real(2)) * 1e6;
-        lens.target_m = lens.eye_m + math::dvec3(real(3), 0.3, real(4) - 1.5);
+        lens.eye_m = math::dvec3{real(0), real(1), real(2)} * 1e6;
+        lens.target_m = lens.eye_m + math::dvec3{real(3), 0.3, real(4) - 1.5};
         lens.far_m = kind == 0 ? std::numeric_limits<double>::infinity() : 200.0;
         lens.size_px = math::ivec2(2048, 1024);
         math::OrthographicConfig box{.eye_m = lens.eye_m, .target_m = lens.target_m, .window_m = {-20, 20, -10, 10},
                                      .near_m = 0.0, .far_m = 200.0, .size_px = lens.size_px, .depth = math::Depth::forward};
         math::View const view = perspective ? math::make_perspective(lens).value() : math::make_orthographic(box).value();
-        math::PixelRay const ray = math::pixel_ray(view, math::dvec2(1024.0 + 1500.0 * real(5), 512.0 + 700.0 * real(6)));
+        math::PixelRay const ray = math::pixel_ray(view, math::dvec2{1024.0 + 1500.0 * real(5), 512.0 + 700.0 * real(6)});
         math::vec3 const p = math::to_float(ray.start_m + ray.step * (51.0 + 50.0 * real(7)));
 
         math::mat4 const m = math::clip_from_relative(view);

@@ -41,8 +41,8 @@ struct Forest {
             m[0][0] = m[2][2] = size * std::cos(turn);
             m[0][2] = size * std::sin(turn);
             m[2][0] = -m[0][2];
-            m[3] = math::vec4(static_cast<float>(i % 9) * 30.0F - 120.0F + 12.0F * random(), 0.0F,
-                              static_cast<float>(i / 9) * 30.0F - 120.0F + 12.0F * random(), 1.0F);
+            m[3] = math::vec4{static_cast<float>(i % 9) * 30.0F - 120.0F + 12.0F * random(), 0.0F,
+                              static_cast<float>(i / 9) * 30.0F - 120.0F + 12.0F * random(), 1.0F};
             trees.push_back(m);
         }
         test.uv = std::span<math::vec2 const>(uv);
@@ -77,7 +77,7 @@ struct Forest {
         float const turn = random() * 6.2831853F;
         float const far = reach * std::sqrt(random());
         math::vec3 const at(far * std::cos(turn), height, far * std::sin(turn));
-        auto const side = [&] { return math::vec3(random() - 0.5F, random() - 0.5F, random() - 0.5F) * 2.6F; };
+        auto const side = [&] { return math::vec3{random() - 0.5F, random() - 0.5F, random() - 0.5F} * 2.6F; };
         math::vec3 const u = side();
         add_quad(at, u, side(), leaves);
     }

@@ -58,7 +58,7 @@ struct MaskedScene {
         float const reach[] = {0.01F, 1.0F, 20.0F, 1e9F};
         float const span = reach[random.in(0, 3)];
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            uv.emplace_back((random.unit() - 0.5F) * span, (random.unit() - 0.3F) * span);
+            uv.push_back({(random.unit() - 0.5F) * span, (random.unit() - 0.3F) * span});
         if (random.in(0, 4) != 0) return;
         uv[0].x = std::numeric_limits<float>::quiet_NaN();
         uv[4].y = std::numeric_limits<float>::infinity();

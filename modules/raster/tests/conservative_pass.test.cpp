@@ -64,11 +64,11 @@ Corners random_corners(Random& random) {
     float const scale = random.in(0, 2) == 0 ? 40.0F : random.in(0, 1) == 0 ? 0.4F : 3.0F;
     Corners c;
     for (math::vec3& p : c)
-        p = math::vec3((random.unit() - 0.5F) * scale, (random.unit() - 0.5F) * scale, (0.3F - random.unit()) * scale);
+        p = math::vec3{(random.unit() - 0.5F) * scale, (random.unit() - 0.5F) * scale, (0.3F - random.unit()) * scale};
     if (random.in(0, 2) != 0) return c;
     float const small = random.in(0, 1) == 0 ? 0.02F : 0.2F;
     for (std::size_t i = 1; i < 3; ++i)
-        c[i] = c[0] + math::vec3(random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F) * small;
+        c[i] = c[0] + math::vec3{random.unit() - 0.5F, random.unit() - 0.5F, random.unit() - 0.5F} * small;
     return c;
 }
 

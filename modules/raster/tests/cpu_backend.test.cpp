@@ -141,7 +141,7 @@ TEST_CASE("passes of the CPU backend are those of layered_pass, bit for bit", "[
         std::vector<Draw> const draws = in_groups(scene.draws());
         core::ThreadExecutor executor(round % 3 + 1);
         CpuBackend device(executor);
-        TargetConfig config{.size_px = math::ivec2(random.in(1, 200), random.in(1, 150)),
+        TargetConfig config{.size_px = math::ivec2{random.in(1, 200), random.in(1, 150)},
                             .layers = static_cast<std::uint32_t>(random.in(1, 3))};
         if (round % 3 == 1) config.depth = backend::DepthFormat::unorm16;
         if (round % 3 == 2) config.triangle_ids = true;
@@ -347,7 +347,7 @@ TEST_CASE("the null backend takes and refuses what the CPU backend does, in the 
                 case 6: {
                     backend::TargetId const to(id());
                     std::uint32_t const layer = id();
-                    math::ivec2 const at(random.in(-1, 8), random.in(-1, 8));
+                    math::ivec2 const at{random.in(-1, 8), random.in(-1, 8)};
                     same(cpu.copy(from, to, layer, at), null.copy(from, to, layer, at));
                     break;
                 }

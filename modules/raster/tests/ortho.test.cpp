@@ -248,9 +248,9 @@ TEST_CASE("a tilted light rounds corners to the nearest unit", "[raster][ortho]"
     IntegerOrtho light{.right = {0.6, 0.0, 0.8}, .down = {0.0, -1.0, 0.0}, .away = {0.8, 0.0, -0.6}, .texel_m = 0.02};
     Random random{45};
     for (int i = 0; i < 2'000; ++i) {
-        math::dvec3 const p(static_cast<double>(random.unit()) * 2e7 - 1e7,
+        math::dvec3 const p{static_cast<double>(random.unit()) * 2e7 - 1e7,
                             static_cast<double>(random.unit()) * 2e7 - 1e7,
-                            static_cast<double>(random.unit()) * 2e7 - 1e7);
+                            static_cast<double>(random.unit()) * 2e7 - 1e7};
         auto const v = try_light_vertex(light, p);
         REQUIRE(v.has_value());
         Quad const exact = (static_cast<Quad>(light.right.x) * static_cast<Quad>(p.x) +

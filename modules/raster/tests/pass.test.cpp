@@ -73,8 +73,8 @@ TEST_CASE("every pixel of a tessellated square is hit exactly once", "[raster][w
         Mesh mesh = shuffled_grid(8, random, [&](float x, float y) {
             bool const border = x * x == 1.0F || y * y == 1.0F;
             float const shift = border ? 0.0F : 0.12F;
-            return math::vec3(1.5F * x + shift * (random.unit() - 0.5F), 1.5F * y + shift * (random.unit() - 0.5F),
-                              random.unit());
+            return math::vec3{1.5F * x + shift * (random.unit() - 0.5F), 1.5F * y + shift * (random.unit() - 0.5F),
+                              random.unit()};
         });
         Canvas canvas(48, 40);
         std::vector<int> const count = hits(canvas, mesh, math::mat4(1.0F), every_kernel[round % 3]);

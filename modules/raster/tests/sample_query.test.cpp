@@ -114,7 +114,7 @@ TEST_CASE("a mesh passes at exactly the samples that drawing it would change", "
         math::vec3 const at{random.unit() * 40.0F - 20.0F, random.unit() * 8.0F, 60.0F + random.unit() * 120.0F};
         for (int i = 0; i < 3 * triangles; ++i)
             mesh.push_back(at + math::vec3{random.unit(), random.unit(), random.unit()} * 6.0F);
-        while (uv.size() < mesh.size()) uv.push_back(math::vec2(random.unit(), random.unit()));
+        while (uv.size() < mesh.size()) uv.push_back(math::vec2{random.unit(), random.unit()});
     }
     leaves.uv = std::span<math::vec2 const>(uv);
     std::vector<Draw> draws;

@@ -189,8 +189,8 @@ void compare_clipped(std::uint64_t count, std::uint64_t seed) {
         float const scale = random.in(0, 3) == 0 ? 3000.0F : random.in(0, 1) == 0 ? 0.3F : 3.0F;
         std::vector<math::vec3> corners;
         for (int c = 0; c < 3; ++c)
-            corners.push_back(math::vec3((random.unit() - 0.5F) * scale, (random.unit() - 0.5F) * scale,
-                                         (0.3F - random.unit()) * (random.in(0, 1) == 0 ? 1.0F : scale)));
+            corners.push_back(math::vec3{(random.unit() - 0.5F) * scale, (random.unit() - 0.5F) * scale,
+                                         (0.3F - random.unit()) * (random.in(0, 1) == 0 ? 1.0F : scale)});
         wrong += static_cast<std::uint64_t>(clipped_differences(canvas, corners, kernels[i % 3]));
     }
     CHECK(wrong == 0);
@@ -306,8 +306,8 @@ TEST_CASE("an edge is cut at the same corner whichever triangle owns it", "[rast
     Random random{6};
     ViewportTransform const viewport = make_viewport({0, 0, 640, 480}, true);
     auto const corner = [&] {
-        return math::vec4(random.unit() * 4000.0F - 2000.0F, random.unit() * 4.0F - 2.0F, random.unit() - 0.5F,
-                          random.unit() * 2.0F - 1.0F);
+        return math::vec4{random.unit() * 4000.0F - 2000.0F, random.unit() * 4.0F - 2.0F, random.unit() - 0.5F,
+                          random.unit() * 2.0F - 1.0F};
     };
     int compared = 0;
     for (int i = 0; i < 5'000; ++i) {

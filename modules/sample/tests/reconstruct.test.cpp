@@ -37,8 +37,8 @@ ReconstructCase reconstruct_case(hard::Random& random, int k) {
     auto const real = [&] { return static_cast<double>(unit()); };
     ReconstructCase c;
     float const offset = k % 3 == 0 ? 1000.0F : 0.0F;
-    math::dvec3 const eye = math::dvec3(offset + 10.0F * unit(), 5.0F * unit(), offset * unit());
-    math::dvec3 const target = eye + math::dvec3(real(), 0.5 * real(), real() - 1.5) * 20.0;
+    math::dvec3 const eye = math::dvec3{offset + 10.0F * unit(), 5.0F * unit(), offset * unit()};
+    math::dvec3 const target = eye + math::dvec3{real(), 0.5 * real(), real() - 1.5} * 20.0;
     if (k % 2 == 0) {
         math::PerspectiveConfig config;
         config.eye_m = eye;
@@ -54,16 +54,16 @@ ReconstructCase reconstruct_case(hard::Random& random, int k) {
         config.size_px = math::ivec2(1024, 768);
         c.view = math::make_orthographic(config).value();
     }
-    c.px = math::vec2(random.uniform(0.0F, 1024.0F), random.uniform(0.0F, 768.0F));
+    c.px = math::vec2{random.uniform(0.0F, 1024.0F), random.uniform(0.0F, 768.0F)};
     math::PixelRay const ray = math::pixel_ray(c.view, math::dvec2(static_cast<double>(c.px.x), static_cast<double>(c.px.y)));
     math::vec3 const hit = math::to_float(eye + ray.start_m + ray.step * (10.0 + 9.0 * real()));
     float const size = k % 5 == 0 ? 0.02F : 1.5F;
     math::vec3 const along = math::to_float(ray.step);
-    c.triangle[0] = hit + math::vec3(unit(), unit(), unit()) * size;
-    c.triangle[1] = hit + math::vec3(unit(), unit(), unit()) * size;
+    c.triangle[0] = hit + math::vec3{unit(), unit(), unit()} * size;
+    c.triangle[1] = hit + math::vec3{unit(), unit(), unit()} * size;
     c.triangle[2] = hit * 3.0F - c.triangle[0] - c.triangle[1];  // the ray goes through the middle
-    if (k % 7 == 0) c.triangle[1] = c.triangle[0] + along * size + math::vec3(unit(), unit(), unit()) * (size * 1e-3F);
-    if (k % 11 == 0) c.triangle[2] = (c.triangle[0] + c.triangle[1]) * 0.5F + math::vec3(unit(), unit(), unit()) * 1e-3F;
+    if (k % 7 == 0) c.triangle[1] = c.triangle[0] + along * size + math::vec3{unit(), unit(), unit()} * (size * 1e-3F);
+    if (k % 11 == 0) c.triangle[2] = (c.triangle[0] + c.triangle[1]) * 0.5F + math::vec3{unit(), unit(), unit()} * 1e-3F;
     return c;
 }
 

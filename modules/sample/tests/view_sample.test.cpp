@@ -43,11 +43,12 @@ struct Case {
 Case make_case(Random& random, float offset, bool orthographic) {
     auto const unit = [&] { return random.uniform(-1.0F, 1.0F); };
     Case c;
-    math::vec3 const center(offset + 10.0F * unit(), offset + 10.0F * unit(), offset + 10.0F * unit());
+    math::vec3 const center{offset + 10.0F * unit(), offset + 10.0F * unit(), offset + 10.0F * unit()};
     float const size = random.below(2) == 0 ? 1.0F : 0.01F;
-    for (math::vec3& p : c.triangle) p = center + math::vec3(unit(), unit(), unit()) * size;
-    if (random.below(4) == 0) c.triangle[2] = (c.triangle[0] + c.triangle[1]) * 0.5F + math::vec3(unit(), unit(), unit()) * 1e-4F;
-    math::dvec3 const eye = math::to_double(center) + math::dvec3(static_cast<double>(unit()), static_cast<double>(unit()), static_cast<double>(unit())) * 30.0;
+    for (math::vec3& p : c.triangle) p = center + math::vec3{unit(), unit(), unit()} * size;
+    if (random.below(4) == 0) c.triangle[2] = (c.triangle[0] + c.triangle[1]) * 0.5F + math::vec3{unit(), unit(), unit()} * 1e-4F;
+    math::dvec3 const reach{static_cast<double>(unit()), static_cast<double>(unit()), static_cast<double>(unit())};
+    math::dvec3 const eye = math::to_double(center) + reach * 30.0;
     c.aimed = math::to_double(c.triangle[0]) * 0.25 + math::to_double(c.triangle[1]) * 0.5 + math::to_double(c.triangle[2]) * 0.25;
     c.ray = {eye, (c.aimed - eye) / 3.0, !orthographic};
     c.eye = orthographic ? Target::direction(math::to_float(-c.ray.step)) : Target::point(math::to_float(eye));

@@ -34,7 +34,7 @@ Setup make_setup() {
         state = state * 1664525U + 1013904223U;
         return static_cast<float>(state >> 8U) / 16777216.0F;
     };
-    for (int i = 0; i < 4096; ++i) setup.receivers.emplace_back(10.0F + 50.0F * random(), 0.0F, 50.0F * random());
+    for (int i = 0; i < 4096; ++i) setup.receivers.push_back({10.0F + 50.0F * random(), 0.0F, 50.0F * random()});
     return setup;
 }
 

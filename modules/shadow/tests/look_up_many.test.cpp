@@ -49,8 +49,8 @@ ManyScene many_scene() {
     for (float const x : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, 3e38F, 0.0F})
         scene.surfaces.push_back({math::vec3(x, 0.0F, x), math::vec3(0.0F, 1.0F, 0.0F)});
     for (int i = 0; i < 1000; ++i) {
-        math::vec3 const n(random(-1.0F, 1.0F), random(-0.2F, 1.0F), random(-1.0F, 1.0F));
-        math::vec3 const p(random(-12.0F, 12.0F), random(-12.0F, 12.0F), random(-12.0F, 12.0F));
+        math::vec3 const n{random(-1.0F, 1.0F), random(-0.2F, 1.0F), random(-1.0F, 1.0F)};
+        math::vec3 const p{random(-12.0F, 12.0F), random(-12.0F, 12.0F), random(-12.0F, 12.0F)};
         scene.surfaces.push_back({p, glm::normalize(n)});
     }
     return scene;

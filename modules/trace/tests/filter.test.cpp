@@ -193,7 +193,7 @@ struct MaskedTriangle {
         materials[0] = {true, random.below(2) == 0 ? 1.0F : random.uniform(0.0F, 2.0F), cutoff,
                         random.below(20) == 0 ? 7U : 0U};
         float const reach = std::ldexp(1.0F, random.below(12) - 2);
-        for (math::vec2& uv : uvs) uv = math::vec2(random.uniform(-reach, reach), random.uniform(-reach, reach));
+        for (math::vec2& uv : uvs) uv = math::vec2{random.uniform(-reach, reach), random.uniform(-reach, reach)};
         if (random.below(4) == 0) uvs[1] = uvs[0];
     }
     [[nodiscard]] trace::AlphaTest test() const { return {material_of, materials, textures, uvs}; }
@@ -250,7 +250,7 @@ Tally compare_walls(int count, std::uint64_t seed) {
         auto const any = [&] { return random.uniform(-100.0F, 100.0F); };
         int const up = random.below(3);
         int const along = (up + 1) % 3;
-        trace::Triangle t{math::vec3(any(), any(), any()), math::vec3(any(), any(), any()), math::vec3(0.0F)};
+        trace::Triangle t{math::vec3{any(), any(), any()}, math::vec3{any(), any(), any()}, math::vec3(0.0F)};
         if (random.below(2) == 0) t[1][along] = t[0][along];
         t[2] = t[static_cast<std::size_t>(random.below(2))];
         t[2][up] = any();

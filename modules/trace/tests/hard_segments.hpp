@@ -26,13 +26,13 @@ struct Scale {
 inline Scale any_scale(Random& random) {
     float const size = std::ldexp(1.0F, random.below(30) - 10);
     float const away = random.below(3) == 0 ? 1e7F : random.below(3) == 0 ? 8192.0F : 0.0F;
-    return {size, math::vec3(away * random.uniform(-1.0F, 1.0F), away * random.uniform(-1.0F, 1.0F),
-                             random.uniform(-1.0F, 1.0F))};
+    return {size, math::vec3{away * random.uniform(-1.0F, 1.0F), away * random.uniform(-1.0F, 1.0F),
+                             random.uniform(-1.0F, 1.0F)}};
 }
 
 inline math::vec3 point_of(Random& random, Scale const& scale) {
     return scale.offset +
-           math::vec3(random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)) *
+           math::vec3{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)} *
                scale.size;
 }
 

@@ -80,8 +80,8 @@ int count_fan_leaks(int fans, std::uint64_t seed) {
     int leaks = 0;
     for (int i = 0; i < fans; ++i) {
         auto const unit = [&] { return random.uniform(-1.0F, 1.0F); };
-        math::vec3 const hub(unit(), unit(), unit());
-        math::vec3 const light(hub.x + 4.0F * unit(), hub.y + 10.0F + unit(), hub.z + 4.0F * unit());
+        math::vec3 const hub{unit(), unit(), unit()};
+        math::vec3 const light{hub.x + 4.0F * unit(), hub.y + 10.0F + unit(), hub.z + 4.0F * unit()};
         Mesh mesh;
         math::vec3 rim[6];
         for (int k = 0; k < 6; ++k) {
@@ -153,7 +153,7 @@ TEST_CASE("millimetre scenes in metres lose nothing: generic data scaled by 1e-4
     scenes::Yard const yard(1, 4);
     std::vector<Segment> segments;
     for (int i = 0; i < 5'000; ++i)
-        segments.push_back({math::vec3(random.uniform(-40.0F, 40.0F), random.uniform(0.1F, 30.0F), random.uniform(-40.0F, 40.0F)),
+        segments.push_back({math::vec3{random.uniform(-40.0F, 40.0F), random.uniform(0.1F, 30.0F), random.uniform(-40.0F, 40.0F)},
                             Light::point(math::vec3(12.3F, 90.7F, -30.1F))});
     trace::Bvh const unscaled = trace::build_bvh(yard.mesh.list());
     for (float const scale : {1e-4F, 1e-2F, 1e2F, 1e4F}) {

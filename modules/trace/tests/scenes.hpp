@@ -42,7 +42,7 @@ inline float dyadic(Random& random, int range, int step) {
 }
 
 inline vec3 dyadic_point(Random& random, int range, int step) {
-    return vec3(dyadic(random, range, step), dyadic(random, range, step), dyadic(random, range, step));
+    return vec3{dyadic(random, range, step), dyadic(random, range, step), dyadic(random, range, step)};
 }
 
 /// Random triangles with corners on a grid of 1/64 m within 8 m: all arithmetic on them fits 113 bits.
@@ -84,10 +84,10 @@ public:
         face(vec3(-half, 0.0F, -half), vec3(0.0F, 0.0F, 2.0F * half), vec3(2.0F * half, 0.0F, 0.0F), 3 * boxes);
         for (int j = 0; j < boxes; ++j)
             for (int i = 0; i < boxes; ++i) {
-                vec3 const at(20.0F * static_cast<float>(i) - half + 12.0F + random.uniform(0.0F, 3.0F), 0.0F,
-                              20.0F * static_cast<float>(j) - half + 12.0F + random.uniform(0.0F, 3.0F));
+                vec3 const at{20.0F * static_cast<float>(i) - half + 12.0F + random.uniform(0.0F, 3.0F), 0.0F,
+                              20.0F * static_cast<float>(j) - half + 12.0F + random.uniform(0.0F, 3.0F)};
                 float const u = random.uniform(0.0F, 1.0F);
-                box(at, vec3(random.uniform(8.0F, 13.0F), 1.0F + 59.0F * u * u * u, random.uniform(8.0F, 13.0F)),
+                box(at, vec3{random.uniform(8.0F, 13.0F), 1.0F + 59.0F * u * u * u, random.uniform(8.0F, 13.0F)},
                     subdivision);
             }
     }

@@ -38,7 +38,7 @@ SheetTally aim(int n, float offset, int count, std::uint64_t seed) {
         if (edge == 1) target = (target + corner(x + 1, z)) * 0.5F;
         if (edge == 2) target = (target + corner(x, z + 1)) * 0.5F;
         if (edge == 3) target = (corner(x + 1, z) + corner(x, z + 1)) * 0.5F;
-        math::vec3 const d(scenes::dyadic(random, 4, 64), 40.0F + scenes::dyadic(random, 8, 64), scenes::dyadic(random, 4, 64));
+        math::vec3 const d{scenes::dyadic(random, 4, 64), 40.0F + scenes::dyadic(random, 8, 64), scenes::dyadic(random, 4, 64)};
         bool const from_below = random.below(2) == 0;
         math::vec3 const start = from_below ? target - d : target + d;
         math::vec3 const end = from_below ? target + d : target - d;

@@ -67,8 +67,8 @@ TEST_CASE("generic points of boxes are reached with any pair of end points", "[t
     int rejected = 0;
     for (int i = 0; i < 100'000; ++i) {
         auto const any = [&] { return random.uniform(-1.0F, 1.0F) * std::ldexp(1.0F, random.below(20)); };
-        math::vec3 const a(any(), any(), any());
-        math::vec3 const b(any(), any(), any());
+        math::vec3 const a{any(), any(), any()};
+        math::vec3 const b{any(), any(), any()};
         double const t = static_cast<double>(random.uniform(0.0F, 1.0F));
         math::vec3 lo;
         math::vec3 hi;

@@ -127,8 +127,8 @@ TEST_CASE("a box counts samples on the device where it does on the CPU, and nowh
     std::vector<math::Aabb> boxes;
     Random random{9};
     for (int i = 0; i < 200; ++i) {
-        math::vec3 const middle(random.in(-5, 5), random.in(-5, 5), random.in(-12, 2));
-        math::vec3 const half(random.in(0, 0.6F), random.in(0, 0.6F), random.in(0, 0.6F));
+        math::vec3 const middle{random.in(-5, 5), random.in(-5, 5), random.in(-12, 2)};
+        math::vec3 const half{random.in(0, 0.6F), random.in(0, 0.6F), random.in(0, 0.6F)};
         boxes.push_back({middle - half, middle + half});
     }
     boxes[3] = math::Aabb{};

@@ -99,7 +99,7 @@ LookupWorld make_lookup_world() {
 }
 
 math::vec3 unit_normal(HardFloats& random, math::vec3 const& toward) {
-    math::vec3 n(random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F));
+    math::vec3 n{random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F)};
     switch (random.bits() % 6U) {
         case 0: n = math::vec3(0.0F, 1.0F, 0.0F); break;
         case 1: n = toward; break;
@@ -117,7 +117,7 @@ math::vec3 at_a_texel(HardFloats& random, math::View const& view) {
     math::PixelRay const ray = math::pixel_ray(view, math::dvec2(x, y));
     math::dvec3 const p = view.eye_m + ray.start_m + ray.step * static_cast<double>(random.between(0.5F, 30.0F));
     math::vec3 const f = math::to_float(p);
-    return math::vec3(random.beside(f.x), random.beside(f.y), random.beside(f.z));
+    return math::vec3{random.beside(f.x), random.beside(f.y), random.beside(f.z)};
 }
 
 /// Points of triangles with their normals, as a picture's samples are.
@@ -149,14 +149,15 @@ LookupItem make_item(HardFloats& random, LookupWorld const& world, std::vector<L
     math::vec3 const toward = world.cases[index].map.back;
     LookupItem item{at_a_texel(random, view), unit_normal(random, toward), index};
     switch (random.bits() % 8U) {
-        case 0: item.position = math::vec3(random.any(), random.any(), random.any()); break;
+        case 0: item.position = math::vec3{random.any(), random.any(), random.any()}; break;
         case 1:
         case 2:
             item = scene[random.bits() % scene.size()];
             item.index = index;
             break;
         case 3:
-            item.position = math::vec3(random.between(-12.0F, 12.0F), random.between(-12.0F, 12.0F), random.between(-12.0F, 12.0F));
+            item.position = math::vec3{random.between(-12.0F, 12.0F), random.between(-12.0F, 12.0F),
+                                       random.between(-12.0F, 12.0F)};
             break;
         default: break;
     }

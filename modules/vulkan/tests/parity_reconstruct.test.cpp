@@ -43,14 +43,14 @@ ReconstructItem reconstruct_item(HardFloats& random, std::vector<sample::RayCame
     ReconstructItem item;
     item.camera = static_cast<std::uint32_t>(random.bits() % cameras.size());
     bool const hard = random.bits() % 8U == 0;
-    item.px = hard ? math::vec2(random.any(), random.any())
-                   : math::vec2(random.between(0.0F, 1024.0F), static_cast<float>(random.bits() % 768U) + 0.5F);
+    item.px = hard ? math::vec2{random.any(), random.any()}
+                   : math::vec2{random.between(0.0F, 1024.0F), static_cast<float>(random.bits() % 768U) + 0.5F};
     sample::RayCamera const& camera = cameras[item.camera];
     math::vec3 const middle = camera.eye + camera.forward * random.between(0.5F, 40.0F);
     float const size = random.bits() % 4U == 0 ? 0.01F : 3.0F;
     for (math::vec3& p : item.triangle)
-        p = hard ? math::vec3(random.any(), random.any(), random.any())
-                 : middle + math::vec3(random.between(-size, size), random.between(-size, size), random.between(-size, size));
+        p = hard ? math::vec3{random.any(), random.any(), random.any()}
+                 : middle + math::vec3{random.between(-size, size), random.between(-size, size), random.between(-size, size)};
     if (random.bits() % 16U == 0) item.triangle[2] = (item.triangle[0] + item.triangle[1]) * 0.5F;  // hardly any area
     if (random.bits() % 16U == 0) item.triangle[1] = item.triangle[0] + camera.forward;           // edge on
     return item;

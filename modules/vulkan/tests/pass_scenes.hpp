@@ -38,11 +38,11 @@ inline Soup make_soup(std::uint64_t seed, int count, float size_m) {
     Random random{seed};
     Soup soup;
     for (int i = 0; i < count; ++i) {
-        math::vec3 const middle(random.in(-3, 3), random.in(-3, 3), random.in(-8, -3));
+        math::vec3 const middle{random.in(-3, 3), random.in(-3, 3), random.in(-8, -3)};
         for (int k = 0; k < 3; ++k) {
             soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
-            soup.positions.push_back(middle + math::vec3(random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)) * size_m);
-            soup.uv.emplace_back(random.in(-2, 2), random.in(-2, 2));
+            soup.positions.push_back(middle + math::vec3{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)} * size_m);
+            soup.uv.push_back({random.in(-2, 2), random.in(-2, 2)});
         }
         if (i % 4 == 3) soup.indices[soup.indices.size() - 2] = soup.indices[soup.indices.size() - 7];
     }

@@ -30,8 +30,8 @@ std::vector<math::Aabb> boxes_at_random(std::uint64_t seed, std::size_t n) {
     Random random{seed};
     std::vector<math::Aabb> boxes;
     for (std::size_t i = 0; i < n; ++i) {
-        math::vec3 const middle(random.in(-5, 5), random.in(-5, 5), random.in(-12, 2));
-        math::vec3 const half(random.in(0, 0.6F), random.in(0, 0.6F), random.in(0, 0.6F));
+        math::vec3 const middle{random.in(-5, 5), random.in(-5, 5), random.in(-12, 2)};
+        math::vec3 const half{random.in(0, 0.6F), random.in(0, 0.6F), random.in(0, 0.6F)};
         boxes.push_back({middle - half, middle + half});
     }
     boxes[3] = math::Aabb{};
