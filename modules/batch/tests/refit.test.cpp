@@ -1,45 +1,18 @@
 #include <gnomon/batch/build.hpp>
 #include <gnomon/batch/refit.hpp>
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor_threads.hpp>
 
 #include "shapes.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <vector>
 
-namespace {
-
-std::atomic<std::size_t> refit_allocations{0};
-
-}  // namespace
-
-// Counts every allocation of the test program. Not inlined: GCC would take `free` for the wrong counterpart of `new`.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-    ++refit_allocations;
-    if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::nothrow_t const&) noexcept {
-    ++refit_allocations;
-    return std::malloc(bytes == 0 ? 1 : bytes);
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    ++refit_allocations;
-    auto const step = static_cast<std::size_t>(alignment);
-    if (void* const memory = std::aligned_alloc(step, (bytes + step) / step * step)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+GNOMON_COUNT_ALLOCATIONS;
 
 using namespace gnomon;
 
@@ -70,9 +43,9 @@ TEST_CASE("refit gives the exact bounds of moved triangles, for any executor, an
     shapes::Random random{5};
     for (int frame = 0; frame < 3; ++frame) {
         for (math::vec3& p : mesh.positions) p = p * 1.01F + random.point(-0.5F, 0.5F);
-        std::size_t const before = refit_allocations;
+        std::uint64_t const before = check::allocations_made();
         std::uint64_t const lost = refit(batches, mesh.list(), boxes);
-        CHECK(refit_allocations == before);
+        CHECK(check::allocations_made() == before);
         CHECK(lost == 0);
         std::size_t wrong = 0;
         for (std::size_t b = 0; b < boxes.size(); ++b) wrong += boxes[b] == bounds_from_scratch(batches, b, mesh) ? 0U : 1U;
@@ -103,7 +76,7 @@ TEST_CASE("a second build with the same workspace allocates nothing", "[batch]")
     batch::Batches out;
     core::SerialExecutor const serial;
     build_batches(mesh.list(), {}, workspace, out, serial);
-    std::size_t const before = refit_allocations;
+    std::uint64_t const before = check::allocations_made();
     build_batches(mesh.list(), {}, workspace, out, serial);
-    CHECK(refit_allocations == before);
+    CHECK(check::allocations_made() == before);
 }

@@ -1,15 +1,17 @@
 #include <gnomon/backend.hpp>
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster.hpp>
 
-#include "allocations.hpp"
 #include "mixed.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
+
+GNOMON_COUNT_ALLOCATIONS;
 
 namespace {
 
@@ -413,8 +415,8 @@ TEST_CASE("a frame on the CPU backend allocates nothing once it was there before
     };
     CHECK(frame());
     CHECK(frame());
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     bool const good = frame();
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
     CHECK(good);
 }

@@ -1,8 +1,8 @@
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster/layers.hpp>
 
-#include "allocations.hpp"
 #include "mixed.hpp"
 
 #include <algorithm>
@@ -166,7 +166,7 @@ TEST_CASE("a second layered pass allocates nothing", "[raster][layers][memory]")
     Workspace workspace;
     core::SerialExecutor serial;
     (void)layered_pass(draws, layers, workspace, serial);
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     (void)layered_pass(draws, layers, workspace, serial);
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
 }

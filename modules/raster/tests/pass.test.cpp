@@ -1,8 +1,8 @@
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster.hpp>
 
-#include "allocations.hpp"
 #include "mixed.hpp"
 #include "oracle.hpp"
 
@@ -486,10 +486,10 @@ TEST_CASE("a path of cameras allocates nothing after its first frame", "[raster]
         return seen.drawn;
     };
     CHECK(draw_frame(0) == 0);
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     std::uint64_t most = 0;
     for (int frame = 1; frame < 20; ++frame) most = std::max(most, draw_frame(frame));
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
     CHECK(most > 1000);
 }
 
@@ -499,9 +499,9 @@ TEST_CASE("a second pass of the same size allocates nothing", "[raster][memory]"
     Canvas canvas(256, 256);
     canvas.draw(draws);
     std::size_t const bytes = canvas.workspace.size_bytes();
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     core::SerialExecutor serial;
     camera_pass(draws, canvas.target(), {}, canvas.workspace, serial);
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
     CHECK(canvas.workspace.size_bytes() == bytes);
 }

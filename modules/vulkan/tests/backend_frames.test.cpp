@@ -1,13 +1,15 @@
-#include "allocations.hpp"
 #include "frame_rig.hpp"
 #include "null_driver.hpp"
 #include "test_host.hpp"
 
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/raster/cpu_backend.hpp>
 
 #include <algorithm>
+
+GNOMON_COUNT_ALLOCATIONS;
 
 using namespace gnomon;
 using namespace gnomon::vulkan::test;
@@ -77,11 +79,11 @@ TEST_CASE("frames after the first ask for no memory", "[vulkan][backend][memory]
     FrameRig rig;
     REQUIRE(rig.make(**b, 100));
     for (int i = 0; i < 2; ++i) REQUIRE(rig.step(**b));
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     std::uint64_t const makes = null_driver::counts.makes;
     bool ok = true;
     for (int i = 0; i < 30; ++i) ok = rig.step(**b).has_value() && ok;
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
     CHECK(null_driver::counts.makes == makes);
     CHECK(ok);
 }

@@ -1,10 +1,10 @@
 // Passes on hard cases: alpha tests, depth bias, what cannot be recorded, what recording costs.
 
-#include "allocations.hpp"
 #include "null_driver.hpp"
 #include "pass_rig.hpp"
 #include "pass_scenes.hpp"
 
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 
 #include <algorithm>
@@ -231,7 +231,7 @@ TEST_CASE("recording a frame allocates nothing; its calls do not depend on the n
         std::vector<backend::PassLayer> layers(6);
         for (std::uint32_t i = 0; i < 6; ++i) layers[i].layer = i;
         VkCommandBuffer const commands = VK_NULL_HANDLE;
-        std::uint64_t const before = allocations_made();
+        std::uint64_t const before = check::allocations_made();
         std::uint64_t const makes = null_driver::counts.makes;
         double us = 1e9;
         std::uint64_t calls = 0;
@@ -242,7 +242,7 @@ TEST_CASE("recording a frame allocates nothing; its calls do not depend on the n
             target->prepare(commands, vulkan::TargetUse::sample);
             us = std::min(us, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
         }
-        CHECK(allocations_made() == before);
+        CHECK(check::allocations_made() == before);
         CHECK(null_driver::counts.makes == makes);
         calls_of[n > 12 ? 1 : 0] = calls / 1000;
         CHECK(us < 1000.0);
