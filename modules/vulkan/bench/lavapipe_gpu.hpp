@@ -47,6 +47,7 @@ class LavapipeGpu {
     LavapipeGpu& operator=(LavapipeGpu const&) = delete;
 
     [[nodiscard]] GpuRef const& gpu() const noexcept { return gpu_; }
+    [[nodiscard]] bool is_lavapipe() const noexcept { return is_lavapipe_; }
     [[nodiscard]] Host host() noexcept {
         return {this,
                 [](void* self, VkCommandBuffer& out) { return static_cast<LavapipeGpu*>(self)->begin(out); },
@@ -61,7 +62,9 @@ class LavapipeGpu {
         for (std::uint32_t i = 0; i < count; ++i) {
             VkPhysicalDeviceProperties properties;
             vkGetPhysicalDeviceProperties(all[i], &properties);
-            if (i == 0 || std::strstr(properties.deviceName, "llvmpipe") != nullptr) physical_ = all[i];
+            bool const lavapipe = std::strstr(properties.deviceName, "llvmpipe") != nullptr;
+            if (i == 0 || lavapipe) physical_ = all[i];
+            is_lavapipe_ = is_lavapipe_ || lavapipe;
         }
         return physical_ != VK_NULL_HANDLE;
     }
@@ -110,6 +113,7 @@ class LavapipeGpu {
         return result == VK_SUCCESS ? vkResetFences(device_, 1, &fence_) : result;
     }
 
+    bool is_lavapipe_ = false;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
