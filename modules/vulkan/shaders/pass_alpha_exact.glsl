@@ -3,34 +3,12 @@
 
 #include "pass_corner.glsl"
 
+#define REAL double
+#include "pass_tap.glsl"
+
 layout(set = 0, binding = 3, std430) readonly buffer Coordinates { vec2 coordinates[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Indices { uint indices[]; };
-
-const uint repeat = 0u;
-const uint clamped = 1u;
-
-/// The tap of math::make_tap: first texel, weight of the second.
-void make_tap(double u, int size, uint wrap, out ivec2 at, out double weight) {
-    double reduced = u >= 0.0LF && u < 1.0LF ? u : u - floor(u);
-    if (wrap == clamped) reduced = u < 0.0LF ? 0.0LF : u > 1.0LF ? 1.0LF : u;
-    if (wrap > clamped) reduced = u - 2.0LF * floor(u * 0.5LF);
-    if (!(reduced >= 0.0LF && reduced <= 2.0LF)) reduced = 0.0LF;
-    double place = reduced * double(size) - 0.5LF;
-    double low = floor(place);
-    weight = place - low;
-    at = ivec2(int(low), int(low) + 1);
-    for (int i = 0; i < 2; ++i) {
-        if (wrap == repeat) at[i] = at[i] < 0 ? size - 1 : at[i] < size ? at[i] : 0;
-        else if (wrap == clamped) at[i] = at[i] < 0 ? 0 : at[i] < size ? at[i] : size - 1;
-        else at[i] = at[i] < 0 ? 0 : at[i] < size ? at[i] : at[i] < 2 * size ? 2 * size - 1 - at[i] : 0;
-    }
-}
-
-double texel(AlphaTest test, int column, int row) {
-    uint at = test.first_texel + uint(row) * uint(test.width) + uint(column);
-    return double((texels[at >> 2] >> ((at & 3u) * 8u)) & 255u);
-}
 
 /// The texture coordinates of the pixel's centre: corner i weighs as the others' cross product, seen from there.
 dvec2 coordinates_here(Item item) {
