@@ -6,3 +6,5 @@
 #include <gnomon/cluster/key.hpp>
 #include <gnomon/cluster/normal_cells.hpp>
 #include <gnomon/cluster/slices.hpp>
+#include <gnomon/cluster/unique.hpp>
+#include <gnomon/cluster/unique_workspace.hpp>
