@@ -1,0 +1,6 @@
+#pragma once
+// Lights, and which clusters of a grid each of them touches.
+
+#include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/light.hpp>
+#include <gnomon/lights/planes.hpp>

@@ -1,0 +1,101 @@
+#pragma once
+// Which lights take part: what is bad or on other layers is left out, and counted.
+
+#include <gnomon/core/contract.hpp>
+#include <gnomon/lights/light.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::lights {
+
+/// The largest coordinate, range and half axis that culling takes: 2^60 m, whose square is a float.
+inline constexpr float max_size_m = 1152921504606846976.0F;
+
+/// What became of a list of lights.
+struct Report {
+    std::uint32_t taken = 0;     ///< took part, whether or not they touch a cluster
+    std::uint32_t bad = 0;       ///< left out: NaN, infinite, beyond 2^60 m, or a range (a box's size) not above 0
+    std::uint32_t masked = 0;    ///< left out: on none of the layers asked for
+    friend bool operator==(Report const&, Report const&) = default;
+};
+
+/// The radius of the ball about a light's centre that holds it; 0 for a directional one.
+///
+///     box: the longest of the four diagonals u + v + w, u + v - w, ...
+[[nodiscard]] inline float bounding_radius_m(Light const& l) noexcept {
+    if (l.kind == Kind::directional) return 0.0F;
+    if (l.kind != Kind::box) return l.range_m;
+    float longest_sq = 0.0F;
+    for (int signs = 0; signs < 4; ++signs) {
+        float const v = (signs & 1) != 0 ? -1.0F : 1.0F, w = (signs & 2) != 0 ? -1.0F : 1.0F;
+        math::vec3 const d = l.axis + l.side * v + l.other * w;
+        float const square = d.x * d.x + d.y * d.y + d.z * d.z;
+        longest_sq = square > longest_sq || std::isnan(square) ? square : longest_sq;
+    }
+    return std::sqrt(longest_sq);
+}
+
+namespace detail {
+
+[[nodiscard]] inline bool is_sound(math::vec3 const& v) noexcept {  // false for NaN
+    return std::abs(v.x) <= max_size_m && std::abs(v.y) <= max_size_m && std::abs(v.z) <= max_size_m;
+}
+
+}  // namespace detail
+
+[[nodiscard]] inline bool is_sound(Light const& l) noexcept {
+    if (l.kind == Kind::directional) return true;
+    if (!detail::is_sound(l.center)) return false;
+    if (l.kind == Kind::box && !(detail::is_sound(l.axis) && detail::is_sound(l.side) && detail::is_sound(l.other))) return false;
+    if (l.kind == Kind::spot && !(detail::is_sound(l.axis) && std::abs(l.cos_half) <= 1.0F && l.sin_half >= 0.0F && l.sin_half <= 1.0F))
+        return false;
+    float const r = bounding_radius_m(l);
+    return r > 0.0F && r <= max_size_m;
+}
+
+/// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
+struct Workspace {
+    std::vector<float> x, y, depth, radius;  ///< of the lights that take part, padded with copies to a multiple of 8
+    std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending
+    std::vector<std::uint32_t> spans;        ///< lists: three words a row that a light touches
+    std::vector<std::uint32_t> cursors;      ///< lists: where each cluster's next light goes
+};
+
+/// Fills the first five lists of `work`.
+///
+/// cost: O(lights)
+[[nodiscard]] inline Report admit(std::span<Light const> lights, std::uint32_t layers, Workspace& work) {
+    GNOMON_EXPECT(lights.size() < 0xFFFFFFFFU);
+    std::size_t const padded = lights.size() + 8;
+    for (auto* list : {&work.x, &work.y, &work.depth, &work.radius}) list->resize(padded);
+    work.index.resize(padded);
+    Report report;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        Light const& l = lights[i];
+        if ((l.layers & layers) == 0) {
+            ++report.masked;
+        } else if (!is_sound(l)) {
+            ++report.bad;
+        } else {
+            work.x[n] = l.center.x;
+            work.y[n] = l.center.y;
+            work.depth[n] = l.center.z;
+            work.radius[n] = bounding_radius_m(l);
+            work.index[n++] = static_cast<std::uint32_t>(i);
+        }
+    }
+    report.taken = static_cast<std::uint32_t>(n);
+    for (std::size_t i = n; i < padded; ++i) {
+        work.x[i] = work.y[i] = 0.0F;
+        work.depth[i] = work.radius[i] = 1.0F;
+    }
+    work.index.resize(n);
+    return report;
+}
+
+}  // namespace gnomon::lights
