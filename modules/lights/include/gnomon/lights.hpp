@@ -3,4 +3,5 @@
 
 #include <gnomon/lights/admit.hpp>
 #include <gnomon/lights/light.hpp>
+#include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/planes.hpp>

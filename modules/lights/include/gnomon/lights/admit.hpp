@@ -57,12 +57,29 @@ namespace detail {
     return r > 0.0F && r <= max_size_m;
 }
 
+/// Neighbouring clusters of one row that a light touches.
+struct Run {
+    std::uint32_t cluster;  ///< dense index of the first
+    std::uint32_t count;
+    std::uint32_t light;
+};
+
+/// How many clusters a light touches.
+struct LightPairs {
+    std::uint32_t light;
+    float importance;
+    std::uint64_t pairs;
+};
+
 /// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
 struct Workspace {
     std::vector<float> x, y, depth, radius;  ///< of the lights that take part, padded with copies to a multiple of 8
-    std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending
-    std::vector<std::uint32_t> spans;        ///< lists: three words a row that a light touches
-    std::vector<std::uint32_t> cursors;      ///< lists: where each cluster's next light goes
+    std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending; padded too
+    std::size_t count = 0;
+    std::vector<Run> runs;                   ///< lists: what each light touches, by lights
+    std::size_t run_count = 0;
+    std::vector<std::uint32_t> cursors;      ///< lists: how many lights a cluster has, then where its next one goes
+    std::vector<LightPairs> pairs;           ///< lists: used where a fixed capacity overflows
 };
 
 /// Fills the first five lists of `work`.
@@ -90,11 +107,12 @@ struct Workspace {
         }
     }
     report.taken = static_cast<std::uint32_t>(n);
+    work.count = n;
     for (std::size_t i = n; i < padded; ++i) {
+        work.index[i] = 0;
         work.x[i] = work.y[i] = 0.0F;
         work.depth[i] = work.radius[i] = 1.0F;
     }
-    work.index.resize(n);
     return report;
 }
 

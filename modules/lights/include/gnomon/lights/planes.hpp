@@ -8,7 +8,7 @@
 
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/admit.hpp>
-#include <gnomon/lights/detail/scatter.hpp>
+#include <gnomon/lights/detail/planes_rows.hpp>
 #include <gnomon/lights/light.hpp>
 
 #include <cstddef>

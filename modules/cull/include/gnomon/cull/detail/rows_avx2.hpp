@@ -1,205 +1,244 @@
 #pragma once
-// The rows of balls, eight borders at a time: the formula's bits, without the parts that the formula computes in vain.
+// The rows of balls with AVX2: the formula's bits, without what the formula computes in vain.
 //
-// A light's work: where it is among the planes of the grid (three searches by comparison), the arcs of the borders that
-// it may touch, then slice by slice the corners on the planes that cross it. Corners of a plane serve both slices.
+// Two shapes of work. Balls that reach at most 4 rows, 4 slices and 8 columns go eight at a time, a ball a lane, in step
+// over their borders; larger ones one at a time, a border a lane. Arcs are made once a border, corners once a border and
+// plane, for both slices beside it.
 
-#include <gnomon/cull/rows.hpp>
-#include <gnomon/math/lanes.hpp>
+#include <gnomon/cull/detail/ready_avx2.hpp>
 
-#if GNOMON_VECTOR_EXTENSION && defined(__x86_64__)
-#define GNOMON_CULL_AVX2 1
-#include <immintrin.h>
+#if GNOMON_CULL_AVX2
 
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-
-#define GNOMON_ROWS_INLINE [[gnu::target("avx2,bmi,bmi2,popcnt,lzcnt"), gnu::always_inline]] inline
-#define GNOMON_ROWS_TARGET [[gnu::target("avx2,bmi,bmi2,popcnt,lzcnt"), gnu::flatten]]
 
 namespace gnomon::cull::detail {
 
-using L8 = math::Lanes<float, 8>;
-using M8 = L8::Mask;
-using Ready8 = formula::GnReadyBall<L8>;
+inline constexpr int small_rows = 4, small_slices = 4, small_columns = 8;
 
-inline constexpr std::uint32_t max_slices_avx2 = 127;  ///< What the kernel's stack holds; beyond: the scalar loop.
-
-[[nodiscard]] inline bool has_avx2() noexcept {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
-}
-
-/// Eight prepared balls, as numbers: `field[f][lane]`.
-struct alignas(32) ReadyFields {
-    static constexpr std::size_t count = sizeof(Ready8) / sizeof(L8);
-    float field[count][8];
+/// GnPlaneCut
+struct Cut8 {
+    F8 depth, scale, inverse, rest;
+    Span8 cap;
+    bool crosses;  ///< any lane's plane crosses its ball; otherwise nothing but `rest` is set
 };
 
-GNOMON_ROWS_INLINE std::uint32_t bits_of(M8 const& mask) noexcept {
-    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(reinterpret_cast<__m256i>(mask.v))));
-}
-
-/// Each lane's right neighbour; the last lane keeps its own.
-GNOMON_ROWS_INLINE L8 next_lane(L8 const& a) noexcept {
-    return {_mm256_permutevar8x32_ps(a.v, _mm256_setr_epi32(1, 2, 3, 4, 5, 6, 7, 7))};
-}
-
-GNOMON_ROWS_INLINE void make_ready(float const* x, float const* y, float const* depth, float const* radius, bool perspective,
-                                   ReadyFields& out) noexcept {
-    formula::Vec3<L8> const center(L8::load(x), L8::load(y), L8::load(depth));
-    Ready8 const ready = formula::gn_ready_ball(center, formula::Float<L8>(L8::load(radius)), perspective);
-    std::memcpy(out.field, &ready, sizeof(ready));
-}
-
-/// One of eight, in every lane.
-GNOMON_ROWS_INLINE Ready8 spread(ReadyFields const& from, std::size_t lane) noexcept {
-    L8 all[ReadyFields::count];
-    for (std::size_t f = 0; f < ReadyFields::count; ++f) all[f] = {_mm256_broadcast_ss(&from.field[f][lane])};
-    Ready8 r;
-    std::memcpy(&r, all, sizeof(r));
-    return r;
-}
-
-/// How many of `count` ascending numbers are below `x` (or equal, if `or_equal`). Reads up to 7 more: NaN, not counted.
-template <bool or_equal>
-GNOMON_ROWS_INLINE std::uint32_t count_below(float const* from, std::uint32_t count, L8 const& x) noexcept {
-    std::uint32_t n = 0;
-    for (std::uint32_t i = 0; i < count; i += 8) {
-        L8 const at = L8::load(from + i);
-        n += static_cast<std::uint32_t>(std::popcount(bits_of(or_equal ? at <= x : at < x)));
-    }
-    return n;
-}
-
-/// Slices, rows and columns of a grid that a ball may reach, both ends included; empty where a first is past its last.
-struct Reach {
-    std::uint32_t slice_first, slice_last, row_first, row_last, column_first, column_last;
+/// GnCap
+struct Cap8 {
+    Span8 span;
+    F8 low_scale, high_scale;
 };
 
-/// `rest[k]` becomes the rest of the plane k (see GnPlaneCut).
-GNOMON_ROWS_INLINE bool find_slices(RowGrid const& g, formula::GnBall<L8> const& ball, float* rest, Reach& reach) noexcept {
-    std::uint32_t below = 0, crossing = 0, before = 0;
-    L8 const zero = L8::all(0.0F), depth = ball.center.z.v;
-    for (std::uint32_t k = 0; k <= g.slices; k += 8) {
-        L8 const at = L8::load(g.depth_m.data() + k);
-        L8 const off = at - depth;
-        L8 const left = ball.radius_sq.v - off * off;
-        left.store(rest + k);
-        std::uint32_t const crosses = bits_of(left >= zero), front = bits_of(at <= depth);
-        crossing += static_cast<std::uint32_t>(std::popcount(crosses));
-        before += static_cast<std::uint32_t>(std::popcount(front));
-        below += static_cast<std::uint32_t>(std::popcount(front & ~crosses));
-    }
-    if (crossing > 0) {
-        reach.slice_first = below > 0 ? below - 1 : 0;
-        reach.slice_last = below + crossing - 1 < g.slices ? below + crossing - 1 : g.slices - 1;
-        return true;
-    }
-    reach.slice_first = reach.slice_last = before - 1;
-    return before > 0 && before <= g.slices;
+/// gn_corner
+GNOMON_ROWS_INLINE Span8 corner(F8 x, F8 off, F8 rest, F8 inverse) noexcept {
+    F8 const left = rest - off * off, zero = all(0.0F), far = all(formula::gn_far());
+    F8 const s = root(greatest(left, zero)), any = left >= zero;
+    return {select(any, (x - s) * inverse, far), select(any, (x + s) * inverse, zero - far)};
 }
 
-GNOMON_ROWS_INLINE bool find_reach(RowGrid const& g, Ready8 const& ready, float* rest, Reach& reach) noexcept {
-    if (!find_slices(g, ready.ball, rest, reach)) return false;
-    reach.row_first = count_below<false>(g.y.data() + 1, g.rows, ready.y.low.v);
-    std::uint32_t const rows = count_below<true>(g.y.data(), g.rows, ready.y.high.v);
-    reach.column_first = count_below<false>(g.right.data(), g.columns, ready.x.low.v);
-    std::uint32_t const columns = count_below<true>(g.left.data(), g.columns, ready.x.high.v);
-    reach.row_last = (rows < g.rows ? rows : g.rows) - 1;
-    reach.column_last = columns - 1;
-    return rows > reach.row_first && columns > reach.column_first;
+/// gn_border_arc
+template <bool perspective>
+GNOMON_ROWS_INLINE Arc8 border_arc(Ready8 const& b, F8 y, F8 secant, F8 cosine) noexcept {
+    if constexpr (!perspective) {
+        F8 const off = b.y - y;
+        return flat_arc_of(b.x, b.depth, b.radius_sq - off * off);
+    }
+    F8 const off = (b.y - y * b.depth) * cosine;
+    return arc_of(b.x, (b.y * y + b.depth) * cosine, b.radius_sq - off * off, b.tangent, secant, cosine);
 }
 
-/// A plane's cut in every lane, and the border corners on it; `crosses`: whether it meets the ball at all.
-struct PlaneCorners {
-    formula::GnPlaneCut<L8> cut;
-    formula::GnSpan<L8> corner;
-    bool crosses;
-};
-
-GNOMON_ROWS_INLINE PlaneCorners make_corners(RowGrid const& g, formula::GnBall<L8> const& ball, std::uint32_t k, float rest,
-                                             formula::GnRowBorder<L8> const& border) noexcept {
-    PlaneCorners c;
-    c.crosses = rest >= 0.0F;
-    if (!c.crosses) {
-        L8 const far = L8::all(formula::gn_far());
-        c.cut.rest.v = L8::all(-1.0F);
-        c.cut.plane.depth.v = c.cut.plane.scale.v = c.cut.plane.inverse.v = L8::all(0.0F);
-        c.cut.cap.low.v = c.corner.low.v = far;
-        c.cut.cap.high.v = c.corner.high.v = -far;
-        return c;
+/// gn_ends and gn_within
+GNOMON_ROWS_INLINE Span8 within(Arc8 const& arc, Cut8 const& near, Span8 near_corner, Cut8 const& far, Span8 far_corner) noexcept {
+    F8 const zero = all(0.0F), none = all(formula::gn_far()), any = arc.rest >= zero;
+    Span8 s{select(any, arc.span.low, none), select(any, arc.span.high, zero - none)};
+    if (far.crosses) {
+        F8 const at = far.depth * arc.unit, here = far.rest >= zero;
+        s.low = select(here & (arc.low_at >= at), far_corner.low, s.low);
+        s.high = select(here & (arc.high_at >= at), far_corner.high, s.high);
     }
-    c.cut.plane.depth.v = L8::all(g.depth_m[k]);
-    c.cut.plane.scale.v = L8::all(g.scale[k]);
-    c.cut.plane.inverse.v = L8::all(g.inverse[k]);
-    c.cut.rest.v = L8::all(rest);
-    c.cut.cap = formula::gn_corner(ball.center.x, formula::Float<L8>(0.0F), c.cut.rest, c.cut.plane.inverse);
-    c.corner = formula::gn_border_corner(ball, border, c.cut);
-    return c;
-}
-
-/// What a ball covers of seven rows of a slice: between each lane's border and the next.
-GNOMON_ROWS_INLINE formula::GnSpan<L8> row_spans(Ready8 const& ready, formula::GnRowBorder<L8> const& border,
-                                                 formula::GnArc<L8> const& arc, PlaneCorners const& near,
-                                                 PlaneCorners const& far) noexcept {
-    formula::GnSpan<L8> top;
-    formula::GnCap<L8> cap;
-    if (near.crosses || far.crosses) {
-        top = formula::gn_within(arc, formula::gn_ends(arc, near.cut, far.cut), near.corner, far.corner);
-        cap = formula::gn_slice_cap(ready, near.cut, far.cut);
-    } else {
-        formula::Bool<L8> const any = arc.rest >= formula::Float<L8>(0.0F);
-        top.low = gn_select(any, arc.span.low, formula::Float<L8>(formula::gn_far()));
-        top.high = gn_select(any, arc.span.high, formula::Float<L8>(-formula::gn_far()));
-        cap = {ready.cap.span, ready.cap_low_scale, ready.cap_high_scale};
+    if (near.crosses) {
+        F8 const at = near.depth * arc.unit, here = near.rest >= zero;
+        s.low = select(here & (arc.low_at <= at), near_corner.low, s.low);
+        s.high = select(here & (arc.high_at <= at), near_corner.high, s.high);
     }
-    formula::GnSpan<L8> const bottom{{next_lane(top.low.v)}, {next_lane(top.high.v)}};
-    formula::Float<L8> const y = ready.ball.center.y, next_y{next_lane(border.y.v)};
-    formula::Bool<L8> const low_inside = formula::gn_below(border.y, cap.low_scale, y) && !formula::gn_below(next_y, cap.low_scale, y);
-    formula::Bool<L8> const high_inside =
-        formula::gn_below(border.y, cap.high_scale, y) && !formula::gn_below(next_y, cap.high_scale, y);
-    formula::GnSpan<L8> s = formula::gn_joined(top, bottom, cap.span, low_inside, high_inside);
-    s.low = gn_max(s.low, ready.x.low);
-    s.high = gn_min(s.high, ready.x.high);
     return s;
 }
 
-/// Calls `sink.row(row index, low, high)` for every row of every slice where the ball's span is not empty, by borders,
-/// then slices. The row index is slice * rows + row. Before: `sink.begin(reach)`.
+/// gn_slice_cap
+GNOMON_ROWS_INLINE Cap8 slice_cap(Ready8 const& b, Cut8 const& near, Cut8 const& far) noexcept {
+    F8 const zero = all(0.0F);
+    Cap8 c{b.cap.span, b.cap_low_scale, b.cap_high_scale};
+    if (far.crosses) {
+        F8 const at = far.depth * b.cap.unit, here = far.rest >= zero;
+        F8 const low = here & (b.cap.low_at >= at), high = here & (b.cap.high_at >= at);
+        c.span = {select(low, far.cap.low, c.span.low), select(high, far.cap.high, c.span.high)};
+        c.low_scale = select(low, far.scale, c.low_scale);
+        c.high_scale = select(high, far.scale, c.high_scale);
+    }
+    if (near.crosses) {
+        F8 const at = near.depth * b.cap.unit, here = near.rest >= zero;
+        F8 const low = here & (b.cap.low_at <= at), high = here & (b.cap.high_at <= at);
+        c.span = {select(low, near.cap.low, c.span.low), select(high, near.cap.high, c.span.high)};
+        c.low_scale = select(low, near.scale, c.low_scale);
+        c.high_scale = select(high, near.scale, c.high_scale);
+    }
+    return c;
+}
+
+/// gn_joined, and the bounds of the whole ball. `y`, `next_y`: the row's borders.
+GNOMON_ROWS_INLINE Span8 joined(Ready8 const& b, Span8 top, Span8 bottom, F8 y, F8 next_y, Cap8 const& cap) noexcept {
+    F8 const low_in = and_not(y * cap.low_scale <= b.y, next_y * cap.low_scale <= b.y);
+    F8 const high_in = and_not(y * cap.high_scale <= b.y, next_y * cap.high_scale <= b.y);
+    F8 const low = least(top.low, bottom.low), high = greatest(top.high, bottom.high);
+    return {greatest(select(low_in, least(low, cap.span.low), low), b.x_bounds.low),
+            least(select(high_in, greatest(high, cap.span.high), high), b.x_bounds.high)};
+}
+
+GNOMON_ROWS_INLINE void set_cut(Ready8 const& b, F8 depth, F8 scale, F8 inverse, Cut8& c) noexcept {
+    c.depth = depth, c.scale = scale, c.inverse = inverse;
+    c.cap = corner(b.x, all(0.0F), c.rest, inverse);
+}
+
+/// The plane `k` of each lane; lanes beyond the last plane get it.
+GNOMON_ROWS_INLINE void gather_cut(RowGrid const& g, Ready8 const& b, I8 k, F8 lanes, Cut8& c) noexcept {
+    I8 const at = least(k, all(static_cast<std::int32_t>(g.slices)));
+    F8 const depth = gather(g.depth_m.data(), at), off = depth - b.depth, zero = all(0.0F);
+    c = {zero, zero, zero, b.radius_sq - off * off, {zero, zero}, false};
+    c.crosses = bits_of((c.rest >= zero) & lanes) != 0;
+    if (c.crosses) set_cut(b, depth, gather(g.scale.data(), at), gather(g.inverse.data(), at), c);
+}
+
+/// Calls `sink.row(lane, slice, row, low, high)` for the rows of the balls of `lanes` (a mask) that are not empty: slice
+/// and row counted from each ball's first. All of them must be small.
 template <bool perspective, class Sink>
-GNOMON_ROWS_INLINE void visit_ball(RowGrid const& g, ReadyFields const& fields, std::size_t lane, Sink& sink) noexcept {
-    alignas(32) float rest[max_slices_avx2 + 1 + 8];
-    Ready8 const ready = spread(fields, lane);
-    Reach reach;
-    if (!find_reach(g, ready, rest, reach)) return;
-    sink.begin(reach);
-    for (std::uint32_t j = reach.row_first; j <= reach.row_last; j += 7) {
-        std::uint32_t const count = reach.row_last - j + 1 < 7 ? reach.row_last - j + 1 : 7;
-        formula::GnRowBorder<L8> border;
-        border.y.v = L8::load(g.y.data() + j);
-        border.secant.v = L8::load(g.secant.data() + j);
-        border.cosine.v = L8::load(g.cosine.data() + j);
-        formula::GnArc<L8> const arc = formula::gn_border_arc(ready.ball, border, perspective);
-        PlaneCorners near = make_corners(g, ready.ball, reach.slice_first, rest[reach.slice_first], border);
-        for (std::uint32_t k = reach.slice_first; k <= reach.slice_last; ++k) {
-            PlaneCorners const far = make_corners(g, ready.ball, k + 1, rest[k + 1], border);
-            formula::GnSpan<L8> const s = row_spans(ready, border, arc, near, far);
-            std::uint32_t some = bits_of(s.low.v <= s.high.v) & ((1U << count) - 1U);
+GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes, Sink& sink) noexcept {
+    I8 const rows = b.row_last - b.row_first, slices = b.slice_last - b.slice_first;
+    int slice_count = 1, row_count = 1;
+    while (slice_count < small_slices && bits_of((slices > all(slice_count - 1)) & lanes) != 0) ++slice_count;
+    while (row_count < small_rows && bits_of((rows > all(row_count - 1)) & lanes) != 0) ++row_count;
+
+    Cut8 cut[small_slices + 1];
+    Cap8 cap[small_slices];
+    Span8 above[small_slices];
+    for (int k = 0; k <= slice_count; ++k) gather_cut(g, b, b.slice_first + all(k), lanes, cut[k]);
+    for (int k = 0; k < slice_count; ++k) cap[k] = slice_cap(b, cut[k], cut[k + 1]);
+
+    F8 y = all(0.0F);
+    for (int j = 0; j <= row_count; ++j) {
+        I8 const at = least(b.row_first + all(j), all(static_cast<std::int32_t>(g.rows)));
+        F8 const next_y = gather(g.y.data(), at);
+        Arc8 const arc = border_arc<perspective>(b, next_y, gather(g.secant.data(), at), gather(g.cosine.data(), at));
+        F8 const in_rows = and_not(lanes, all(j - 1) > rows);
+        Span8 near_corner{all(0.0F), all(0.0F)}, far_corner = near_corner;
+        for (int k = 0; k <= slice_count; ++k) {
+            near_corner = far_corner;
+            if (cut[k].crosses) far_corner = corner(b.x, next_y * cut[k].scale - b.y, cut[k].rest, cut[k].inverse);
+            if (k == 0) continue;
+            Span8 const below = within(arc, cut[k - 1], near_corner, cut[k], far_corner);
+            if (j > 0) {
+                Span8 const s = joined(b, above[k - 1], below, y, next_y, cap[k - 1]);
+                std::uint32_t some = bits_of(and_not((s.low <= s.high) & in_rows, all(k - 1) > slices));
+                if (some != 0) {
+                    alignas(32) float low[8], high[8];
+                    store(low, s.low);
+                    store(high, s.high);
+                    for (; some != 0; some &= some - 1) {
+                        auto const lane = static_cast<std::uint32_t>(std::countr_zero(some));
+                        sink.small_row(lane, static_cast<std::uint32_t>(k - 1), static_cast<std::uint32_t>(j - 1), low[lane], high[lane]);
+                    }
+                }
+            }
+            above[k - 1] = below;
+        }
+        y = next_y;
+    }
+}
+
+GNOMON_ROWS_INLINE F8 pick(F8 const& from, std::uint32_t lane) noexcept { return spread(reinterpret_cast<float const*>(&from) + lane); }
+GNOMON_ROWS_INLINE std::uint32_t pick(I8 const& from, std::uint32_t lane) noexcept {
+    return reinterpret_cast<std::uint32_t const*>(&from)[lane];
+}
+
+/// One ball of eight, in every lane.
+GNOMON_ROWS_INLINE void pick(Ready8 const& from, std::uint32_t lane, Ready8& r) noexcept {
+    r.x = pick(from.x, lane), r.y = pick(from.y, lane), r.depth = pick(from.depth, lane);
+    r.radius_sq = pick(from.radius_sq, lane), r.tangent = pick(from.tangent, lane);
+    r.cap.span = {pick(from.cap.span.low, lane), pick(from.cap.span.high, lane)};
+    r.cap.low_at = pick(from.cap.low_at, lane), r.cap.high_at = pick(from.cap.high_at, lane), r.cap.unit = pick(from.cap.unit, lane);
+    r.cap_low_scale = pick(from.cap_low_scale, lane), r.cap_high_scale = pick(from.cap_high_scale, lane);
+    r.x_bounds = {pick(from.x_bounds.low, lane), pick(from.x_bounds.high, lane)};
+}
+
+/// The same plane in every lane, with the corners of the lanes' borders on it.
+GNOMON_ROWS_INLINE Span8 spread_cut(RowGrid const& g, Ready8 const& b, F8 y, std::uint32_t k, Cut8& c) noexcept {
+    F8 const depth = spread(g.depth_m.data() + k), off = depth - b.depth, zero = all(0.0F);
+    c = {zero, zero, zero, b.radius_sq - off * off, {zero, zero}, false};
+    c.crosses = (bits_of(c.rest >= zero) & 1U) != 0;
+    if (!c.crosses) return {zero, zero};
+    set_cut(b, depth, spread(g.scale.data() + k), spread(g.inverse.data() + k), c);
+    return corner(b.x, y * c.scale - b.y, c.rest, c.inverse);
+}
+
+/// Calls `sink.row(slice, row, low, high)` for the rows of one ball of eight, slice and row counted from the grid's first.
+template <bool perspective, class Sink>
+GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, std::uint32_t lane, Sink& sink) noexcept {
+    Ready8 b;
+    pick(eight, lane, b);
+    std::uint32_t const first = pick(eight.row_first, lane), last = pick(eight.row_last, lane);
+    std::uint32_t const slice_first = pick(eight.slice_first, lane), slice_last = pick(eight.slice_last, lane);
+    for (std::uint32_t j = first; j <= last; j += 7) {
+        std::uint32_t const rows = last - j + 1 < 7 ? last - j + 1 : 7;
+        F8 const y = load(g.y.data() + j), next_y = load(g.y.data() + j + 1);
+        Arc8 const arc = border_arc<perspective>(b, y, load(g.secant.data() + j), load(g.cosine.data() + j));
+        Cut8 near;
+        Span8 near_corner = spread_cut(g, b, y, slice_first, near);
+        for (std::uint32_t k = slice_first; k <= slice_last; ++k) {
+            Cut8 far;
+            Span8 const far_corner = spread_cut(g, b, y, k + 1, far);
+            Span8 const top = within(arc, near, near_corner, far, far_corner);
+            Span8 const s = joined(b, top, {next_lane(top.low), next_lane(top.high)}, y, next_y, slice_cap(b, near, far));
+            std::uint32_t some = bits_of(s.low <= s.high) & ((1U << rows) - 1U);
             alignas(32) float low[8], high[8];
-            s.low.v.store(low);
-            s.high.v.store(high);
+            store(low, s.low);
+            store(high, s.high);
             for (; some != 0; some &= some - 1) {
                 auto const i = static_cast<std::uint32_t>(std::countr_zero(some));
-                sink.row(k * g.rows + j + i, low[i], high[i]);
+                sink.large_row(k, j + i, low[i], high[i]);
             }
             near = far;
+            near_corner = far_corner;
         }
     }
 }
 
+/// All balls: `sink.eight(n, ready)` before each eight; `sink.large(lane, ready)` before the rows of a large one,
+/// which come after those of the small ones and in the order of lanes; `sink.done()` after each eight.
+template <bool perspective, class Sink>
+GNOMON_ROWS_INLINE void visit_balls(RowGrid const& g, float const* const (&xyzr)[4], std::size_t count, Sink& sink) noexcept {
+    Ready8 b;
+    for (std::size_t n = 0; n < count; n += 8) {
+        make_ready<perspective>(load(xyzr[0] + n), load(xyzr[1] + n), load(xyzr[2] + n), load(xyzr[3] + n), b);
+        find_reach(g, b);
+        std::uint32_t const there = count - n < 8 ? (1U << (count - n)) - 1U : 255U;
+        F8 const big = (b.row_last - b.row_first > all(small_rows - 1)) | (b.slice_last - b.slice_first > all(small_slices - 1)) |
+                       (b.column_last - b.column_first > all(small_columns - 1));
+        std::uint32_t const some = bits_of(b.reaches) & there;
+        if (some == 0) continue;
+        sink.eight(n, b);
+        std::uint32_t large = bits_of(big) & some;
+        if (large != some) {
+            alignas(32) static constexpr std::int32_t bit[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+            __m256i const bits = _mm256_load_si256(reinterpret_cast<__m256i const*>(bit));
+            __m256i const set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(some & ~large)), bits);
+            visit_small<perspective>(g, b, {_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, bits))}, sink);
+        }
+        for (; large != 0; large &= large - 1) {
+            auto const lane = static_cast<std::uint32_t>(std::countr_zero(large));
+            sink.large(lane, b);
+            visit_large<perspective>(g, b, lane, sink);
+        }
+        sink.done();
+    }
+}
+
 }  // namespace gnomon::cull::detail
-#else
-#define GNOMON_CULL_AVX2 0
 #endif

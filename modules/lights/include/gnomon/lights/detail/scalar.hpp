@@ -1,0 +1,27 @@
+#pragma once
+// The rows of lights one at a time: the reference for what the lanes do.
+
+#include <gnomon/cull/rows.hpp>
+#include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/detail/shapes.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gnomon::lights::detail {
+
+/// Every row of every slice that a light touches, one at a time: `sink.light(index)`, then `sink.row(row, columns)`.
+template <class Sink>
+void scatter_scalar(cull::RowGrid const& grid, std::span<Light const> lights, Workspace const& work, Sink& sink) {
+    for (std::size_t n = 0; n < work.count; ++n) {
+        sink.light(work.index[n]);
+        for_each_row(grid, lights[work.index[n]], work.radius[n],
+                     [&](std::uint32_t row, cull::Span const& span) {
+                         cull::Columns const columns = cull::columns_of(grid, span);
+                         if (!columns.empty()) sink.row(row, columns);
+                     });
+    }
+}
+
+}  // namespace gnomon::lights::detail
