@@ -18,6 +18,11 @@ struct Arc8 {
     F8 low_at, high_at, unit, rest;
 };
 
+/// GnRowBorder
+struct Border8 {
+    F8 y, secant, cosine;
+};
+
 /// GnReadyBall, and the ball's reach in the grid: counts from the first slice, row, column to the last, both included.
 struct Ready8 {
     F8 x, y, depth, radius, radius_sq, tangent;
@@ -29,12 +34,12 @@ struct Ready8 {
 };
 
 /// gn_arc_of
-GNOMON_ROWS_INLINE Arc8 arc_of(F8 x, F8 w, F8 rest, F8 tangent, F8 secant, F8 cosine) noexcept {
+GNOMON_ROWS_INLINE Arc8 arc_of(F8 x, F8 w, F8 rest, F8 tangent, Border8 const& border) noexcept {
     F8 const rho = root(greatest(rest, all(0.0F)));
     F8 const along = tangent * w, across = rho * x, side = tangent * x, lift = rho * w;
     F8 const high_w = along - across, low_w = along + across;
-    F8 const short_tangent = tangent * cosine;
-    return {{(side - lift) / low_w * secant, (side + lift) / high_w * secant},
+    F8 const short_tangent = tangent * border.cosine;
+    return {{(side - lift) / low_w * border.secant, (side + lift) / high_w * border.secant},
             short_tangent * low_w, short_tangent * high_w, tangent * tangent + rho * rho, rest};
 }
 
@@ -48,7 +53,7 @@ template <bool perspective>
 GNOMON_ROWS_INLINE Arc8 cap_arc(F8 x, F8 depth, F8 radius_sq) noexcept {
     if constexpr (!perspective) return flat_arc_of(x, depth, radius_sq);
     F8 const rest = x * x + depth * depth - radius_sq;
-    return arc_of(x, depth, radius_sq, root(greatest(rest, all(0.0F))), all(1.0F), all(1.0F));
+    return arc_of(x, depth, radius_sq, root(greatest(rest, all(0.0F))), {all(0.0F), all(1.0F), all(1.0F)});
 }
 
 /// gn_ready_ball

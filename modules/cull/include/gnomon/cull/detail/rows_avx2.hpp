@@ -37,13 +37,13 @@ GNOMON_ROWS_INLINE Span8 corner(F8 x, F8 off, F8 rest, F8 inverse) noexcept {
 
 /// gn_border_arc
 template <bool perspective>
-GNOMON_ROWS_INLINE Arc8 border_arc(Ready8 const& b, F8 y, F8 secant, F8 cosine) noexcept {
+GNOMON_ROWS_INLINE Arc8 border_arc(Ready8 const& b, Border8 const& border) noexcept {
     if constexpr (!perspective) {
-        F8 const off = b.y - y;
+        F8 const off = b.y - border.y;
         return flat_arc_of(b.x, b.depth, b.radius_sq - off * off);
     }
-    F8 const off = (b.y - y * b.depth) * cosine;
-    return arc_of(b.x, (b.y * y + b.depth) * cosine, b.radius_sq - off * off, b.tangent, secant, cosine);
+    F8 const off = (b.y - border.y * b.depth) * border.cosine;
+    return arc_of(b.x, (b.y * border.y + b.depth) * border.cosine, b.radius_sq - off * off, b.tangent, border);
 }
 
 /// gn_ends and gn_within
@@ -84,11 +84,17 @@ GNOMON_ROWS_INLINE Cap8 slice_cap(Ready8 const& b, Cut8 const& near, Cut8 const&
     return c;
 }
 
-/// gn_joined, and the bounds of the whole ball. `y`, `next_y`: the row's borders.
-GNOMON_ROWS_INLINE Span8 joined(Ready8 const& b, Span8 top, Span8 bottom, F8 y, F8 next_y, Cap8 const& cap) noexcept {
-    F8 const low_in = and_not(y * cap.low_scale <= b.y, next_y * cap.low_scale <= b.y);
-    F8 const high_in = and_not(y * cap.high_scale <= b.y, next_y * cap.high_scale <= b.y);
-    F8 const low = least(top.low, bottom.low), high = greatest(top.high, bottom.high);
+/// A row of a slice: its borders, the cap, and what the ball covers of the borders.
+struct Row8 {
+    F8 y, next_y;
+    Span8 top, bottom;
+};
+
+/// gn_joined, and the bounds of the whole ball.
+GNOMON_ROWS_INLINE Span8 joined(Ready8 const& b, Row8 const& row, Cap8 const& cap) noexcept {
+    F8 const low_in = and_not(row.y * cap.low_scale <= b.y, row.next_y * cap.low_scale <= b.y);
+    F8 const high_in = and_not(row.y * cap.high_scale <= b.y, row.next_y * cap.high_scale <= b.y);
+    F8 const low = least(row.top.low, row.bottom.low), high = greatest(row.top.high, row.bottom.high);
     return {greatest(select(low_in, least(low, cap.span.low), low), b.x_bounds.low),
             least(select(high_in, greatest(high, cap.span.high), high), b.x_bounds.high)};
 }
@@ -126,7 +132,7 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes,
     for (int j = 0; j <= row_count; ++j) {
         I8 const at = least(b.row_first + all(j), all(static_cast<std::int32_t>(g.rows)));
         F8 const next_y = gather(g.y.data(), at);
-        Arc8 const arc = border_arc<perspective>(b, next_y, gather(g.secant.data(), at), gather(g.cosine.data(), at));
+        Arc8 const arc = border_arc<perspective>(b, {next_y, gather(g.secant.data(), at), gather(g.cosine.data(), at)});
         F8 const in_rows = and_not(lanes, all(j - 1) > rows);
         Span8 near_corner{all(0.0F), all(0.0F)}, far_corner = near_corner;
         for (int k = 0; k <= slice_count; ++k) {
@@ -135,7 +141,7 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes,
             if (k == 0) continue;
             Span8 const below = within(arc, cut[k - 1], near_corner, cut[k], far_corner);
             if (j > 0) {
-                Span8 const s = joined(b, above[k - 1], below, y, next_y, cap[k - 1]);
+                Span8 const s = joined(b, {y, next_y, above[k - 1], below}, cap[k - 1]);
                 std::uint32_t some = bits_of(and_not((s.low <= s.high) & in_rows, all(k - 1) > slices));
                 if (some != 0) {
                     alignas(32) float low[8], high[8];
@@ -188,14 +194,14 @@ GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, std::
     for (std::uint32_t j = first; j <= last; j += 7) {
         std::uint32_t const rows = last - j + 1 < 7 ? last - j + 1 : 7;
         F8 const y = load(g.y.data() + j), next_y = load(g.y.data() + j + 1);
-        Arc8 const arc = border_arc<perspective>(b, y, load(g.secant.data() + j), load(g.cosine.data() + j));
+        Arc8 const arc = border_arc<perspective>(b, {y, load(g.secant.data() + j), load(g.cosine.data() + j)});
         Cut8 near;
         Span8 near_corner = spread_cut(g, b, y, slice_first, near);
         for (std::uint32_t k = slice_first; k <= slice_last; ++k) {
             Cut8 far;
             Span8 const far_corner = spread_cut(g, b, y, k + 1, far);
             Span8 const top = within(arc, near, near_corner, far, far_corner);
-            Span8 const s = joined(b, top, {next_lane(top.low), next_lane(top.high)}, y, next_y, slice_cap(b, near, far));
+            Span8 const s = joined(b, {y, next_y, top, {next_lane(top.low), next_lane(top.high)}}, slice_cap(b, near, far));
             std::uint32_t some = bits_of(s.low <= s.high) & ((1U << rows) - 1U);
             alignas(32) float low[8], high[8];
             store(low, s.low);

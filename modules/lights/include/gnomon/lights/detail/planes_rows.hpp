@@ -62,16 +62,16 @@ struct PlaneSink8 {
         }
     }
     GNOMON_ROWS_INLINE void done() noexcept {}
-    GNOMON_ROWS_INLINE static void put(std::uint32_t* at, float const* left, float const* right, __m256 low, __m256 high,
+    GNOMON_ROWS_INLINE static void put(std::uint32_t* at, float const* left, float const* right, cull::detail::Span8 span,
                                        __m256i bit) noexcept {
-        __m256 const in = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(left), high, _CMP_LE_OQ),
-                                        _mm256_cmp_ps(_mm256_loadu_ps(right), low, _CMP_GE_OQ));
+        __m256 const in = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(left), span.high.v, _CMP_LE_OQ),
+                                        _mm256_cmp_ps(_mm256_loadu_ps(right), span.low.v, _CMP_GE_OQ));
         auto* const word = reinterpret_cast<__m256i*>(at);
         _mm256_storeu_si256(word, _mm256_or_si256(_mm256_loadu_si256(word), _mm256_and_si256(_mm256_castps_si256(in), bit)));
     }
     GNOMON_ROWS_INLINE void small_row(std::uint32_t lane, std::uint32_t slice, std::uint32_t row, float low, float high) noexcept {
         put(origin[lane] + std::size_t{slice * grid.rows + row} * grid.columns, grid.left.data() + first[lane],
-            grid.right.data() + first[lane], _mm256_set1_ps(low), _mm256_set1_ps(high), _mm256_set1_epi32(static_cast<int>(bits[lane])));
+            grid.right.data() + first[lane], {cull::detail::all(low), cull::detail::all(high)}, _mm256_set1_epi32(static_cast<int>(bits[lane])));
     }
     GNOMON_ROWS_INLINE void large(std::uint32_t lane, cull::detail::Ready8 const& b) noexcept {
         bit = bits[lane];
@@ -81,9 +81,9 @@ struct PlaneSink8 {
     }
     GNOMON_ROWS_INLINE void large_row(std::uint32_t slice, std::uint32_t row, float low, float high) const noexcept {
         std::uint32_t* const at = plane + std::size_t{slice * grid.rows + row} * grid.columns;
-        __m256 const l = _mm256_set1_ps(low), h = _mm256_set1_ps(high);
+        cull::detail::Span8 const span{cull::detail::all(low), cull::detail::all(high)};
         for (std::uint32_t i = from; i < past; i += 8)
-            put(at + i, grid.left.data() + i, grid.right.data() + i, l, h, _mm256_set1_epi32(static_cast<int>(bit)));
+            put(at + i, grid.left.data() + i, grid.right.data() + i, span, _mm256_set1_epi32(static_cast<int>(bit)));
     }
 };
 
