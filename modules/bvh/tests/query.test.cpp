@@ -21,12 +21,6 @@ struct BoxesOnly {
     [[nodiscard]] bool may_touch(math::Aabb const& box) const noexcept { return region.may_touch(box); }
 };
 
-template <class R>
-struct OneByOne : R {
-    using R::touches;
-    [[nodiscard]] bool may_touch(math::Aabb const& box) const noexcept { return R::may_touch(box); }
-};
-
 template <class Tree, class R>
 std::vector<std::uint32_t> found(Tree const& tree, R const& region) {
     std::vector<std::uint32_t> ids(tree.ids.size());
@@ -63,7 +57,18 @@ struct Maker<bvh::BoxRegion> {
 template <>
 struct Maker<bvh::PlanesRegion> {
     static bvh::PlanesRegion make(check::Choices& choices) {
-        return bvh::PlanesRegion(math::frustum_of(math::views()(choices)));
+        return {math::PlaneSet(math::frustum_of(math::views()(choices)))};
+    }
+};
+template <>
+struct Maker<bvh::ConeRegion> {
+    static bvh::ConeRegion make(check::Choices& choices) {
+        math::Cone cone;
+        cone.apex = math::points()(choices);
+        cone.range = check::floats(0.0F, 2000.0F)(choices);
+        cone.axis = math::to_float(math::directions()(choices));
+        cone.half_angle_rad = check::floats(0.0F, 3.2F)(choices);
+        return bvh::ConeRegion(cone);
     }
 };
 
@@ -94,6 +99,7 @@ TEST_CASE("a query finds what brute force finds, in tree order, whatever the reg
     check_region<bvh::BoxRegion, 16>();
     check_region<bvh::PlanesRegion, 32>();
     check_region<bvh::PlanesRegion, 8>();
+    check_region<bvh::ConeRegion, 32>();
 }
 
 TEST_CASE("eight, four and one child at a time give the same bits", "[bvh]") {
@@ -102,7 +108,7 @@ TEST_CASE("eight, four and one child at a time give the same bits", "[bvh]") {
     math::PerspectiveConfig config;
     config.target_m = math::dvec3(0.0, 0.0, -1.0);
     config.size_px = math::ivec2(640, 480);
-    bvh::PlanesRegion const planes(math::frustum_of(math::make_perspective(config).value()));
+    bvh::PlanesRegion const planes{math::PlaneSet(math::frustum_of(math::make_perspective(config).value()))};
     items_list::Random random{9};
     std::size_t differ = 0;
     std::size_t some = 0;
@@ -121,6 +127,7 @@ TEST_CASE("eight, four and one child at a time give the same bits", "[bvh]") {
         math::vec3 const p = random.point(-100.0F, 100.0F);
         compare(bvh::SphereRegion{{p, random(0.0F, 80.0F)}});
         compare(bvh::BoxRegion{{p, p + math::vec3(random(0.0F, 50.0F))}});
+        compare(bvh::ConeRegion({p, random(0.0F, 80.0F), random.point(-1.0F, 1.0F), random(0.0F, 3.2F)}));
     }
     CHECK(differ == 0);
     CHECK(some > 100);

@@ -1,19 +1,16 @@
 #pragma once
-// What a tree can be asked for: anything that says "I may touch this box". Four regions come ready made.
+// What a tree can be asked for: anything that says "I may touch this box". Four come ready made.
 //
 // All are conservative: they may keep too much, and say no only where exact arithmetic on the same floats says no. The
-// bounds stand at the tests, in gnomon/math/formula/touch.glsl.
+// bounds stand at the tests, in gnomon/math/formula/touch.glsl and separate.glsl.
 
 #include <gnomon/math/bounds.hpp>
-#include <gnomon/math/frustum.hpp>
+#include <gnomon/math/cone.hpp>
 #include <gnomon/math/lanes.hpp>
+#include <gnomon/math/plane_set.hpp>
 #include <gnomon/math/touch.hpp>
 
-#include <array>
 #include <concepts>
-#include <cstddef>
-#include <cstdint>
-#include <span>
 
 namespace gnomon::bvh {
 
@@ -69,43 +66,48 @@ private:
     }
 };
 
-/// The points inside every one of up to twelve half-spaces, and inside `bounds` where it is known: a large box near a
-/// frustum's corner may lie outside of it and yet be outside of no plane.
+/// The points inside several half-spaces, a frustum's for example; see math::PlaneSet.
 struct PlanesRegion {
-    static constexpr std::size_t max_planes = 12;
-
-    std::array<formula::GnPlane, max_planes> planes{};
-    std::uint32_t count = 0;
-    math::Aabb bounds{math::vec3(-std::numeric_limits<float>::infinity()), math::vec3(std::numeric_limits<float>::infinity())};
-
-    PlanesRegion() = default;
-
-    /// expects: at most `max_planes`. A plane with a number that is none bounds nothing.
-    explicit PlanesRegion(std::span<math::Plane const> list) noexcept {
-        GNOMON_EXPECT(list.size() <= max_planes);
-        for (math::Plane const& plane : list)
-            if (count < max_planes) planes[count++] = math::formula_plane(plane);
-    }
-
-    /// What a view sees, relative to its eye.
-    explicit PlanesRegion(math::Frustum const& frustum) noexcept : PlanesRegion(std::span<math::Plane const>(frustum.planes)) {}
+    math::PlaneSet planes;
 
     [[nodiscard]] bool may_touch(math::Aabb const& box) const noexcept { return touches(math::formula_box(box)).v; }
     template <class S>
     [[nodiscard, gnu::always_inline]] formula::Bool<S> touches(formula::GnBox<S> const& box) const noexcept {
-        formula::Bool<S> touched = gn_touches_box_box({formula::Vec3<S>(bounds.lo), formula::Vec3<S>(bounds.hi)}, box);
-        for (std::uint32_t i = 0; i < count; ++i) touched = touched && gn_touches_plane_box(planes[i], box);
-        return touched;
+        return planes.touches(box);
     }
     template <class S>
     [[nodiscard, gnu::always_inline]] formula::Bool<S> touches(formula::GnSphere<S> const& s) const noexcept {
-        formula::GnBox<S> const box{formula::Vec3<S>(bounds.lo), formula::Vec3<S>(bounds.hi)};
-        formula::Bool<S> touched = gn_touches_sphere_box(s.center, gn_touch_limit(s.radius), box);
-        for (std::uint32_t i = 0; i < count; ++i) touched = touched && gn_touches_plane_sphere(planes[i], s);
-        return touched;
+        return planes.touches(s);
     }
 };
 
-static_assert(LaneRegion<SphereRegion> && LaneRegion<BoxRegion> && LaneRegion<PlanesRegion>);
+/// A cone with a round end, of any half angle up to 180 degrees: what a spot light reaches.
+struct ConeRegion {
+    formula::GnSector<float> sector;
+
+    explicit ConeRegion(math::Cone const& cone) noexcept : sector(math::formula_sector(cone)) {}
+
+    [[nodiscard]] bool may_touch(math::Aabb const& box) const noexcept { return touches(math::formula_box(box)).v; }
+    template <class S>
+    [[nodiscard, gnu::always_inline]] formula::Bool<S> touches(formula::GnBox<S> const& box) const noexcept {
+        return gn_touches_sector_box(lanes<S>(), box);
+    }
+    template <class S>
+    [[nodiscard, gnu::always_inline]] formula::Bool<S> touches(formula::GnSphere<S> const& s) const noexcept {
+        return gn_touches_sector_sphere(lanes<S>(), s);
+    }
+
+private:
+    template <class S>
+    [[nodiscard, gnu::always_inline]] formula::GnSector<S> lanes() const noexcept {
+        auto const each = [](formula::Vec3<float> const& v) {
+            return formula::Vec3<S>(formula::Float<S>(v.x.v), formula::Float<S>(v.y.v), formula::Float<S>(v.z.v));
+        };
+        return {each(sector.apex), formula::Float<S>(sector.range.v), each(sector.axis), formula::Float<S>(sector.cosine.v),
+                formula::Float<S>(sector.sine.v)};
+    }
+};
+
+static_assert(LaneRegion<SphereRegion> && LaneRegion<BoxRegion> && LaneRegion<PlanesRegion> && LaneRegion<ConeRegion>);
 
 }  // namespace gnomon::bvh

@@ -40,7 +40,7 @@ GN_FN GN_BOOL gn_is_empty(GN_IN(GN_TYPE(GnBox)) box) {
 
 /// No more than x - r, no less than three units of the last place below: the difference errs by at most half a unit
 /// u of its last place, |d| 2^-23 lies in [u, 2 u), and what is rounded down by at least u is at most d - u.
-GN_FN GN_FLOAT gn_below(GN_FLOAT x, GN_FLOAT r) {
+GN_FN GN_FLOAT gn_low_end(GN_FLOAT x, GN_FLOAT r) {
     GN_PRECISE GN_FLOAT d = x - r;
     GN_PRECISE GN_FLOAT low = d - abs(d) * 1.1920928955078125e-7;
     return low;
@@ -49,8 +49,8 @@ GN_FN GN_FLOAT gn_below(GN_FLOAT x, GN_FLOAT r) {
 /// A box that holds the sphere, by at most three units of the last place a side too large; empty if the sphere is.
 GN_FN GN_TYPE(GnBox) gn_box_of(GN_IN(GN_TYPE(GnSphere)) s) {
     GN_TYPE(GnBox) box;
-    box.lo = GN_VEC3(gn_below(s.center.x, s.radius), gn_below(s.center.y, s.radius), gn_below(s.center.z, s.radius));
-    box.hi = -GN_VEC3(gn_below(-s.center.x, s.radius), gn_below(-s.center.y, s.radius), gn_below(-s.center.z, s.radius));
+    box.lo = GN_VEC3(gn_low_end(s.center.x, s.radius), gn_low_end(s.center.y, s.radius), gn_low_end(s.center.z, s.radius));
+    box.hi = -GN_VEC3(gn_low_end(-s.center.x, s.radius), gn_low_end(-s.center.y, s.radius), gn_low_end(-s.center.z, s.radius));
     return box;
 }
 
