@@ -1,7 +1,7 @@
 #include <gnomon/bvh.hpp>
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/core/executor_threads.hpp>
 
-#include "allocations.hpp"
 #include "items_list.hpp"
 
 #include <cstddef>
@@ -11,6 +11,8 @@
 
 using namespace gnomon;
 using items_list::Balls;
+
+GNOMON_COUNT_ALLOCATIONS;
 
 TEST_CASE("refit in place is the tree itself, and its quality is 1", "[bvh]") {
     Balls const balls = items_list::cloud(5000);
@@ -82,11 +84,11 @@ TEST_CASE("build, refit and query allocate nothing after the first build", "[bvh
     build(balls.list(), bvh::CodeBits::bits_30, work, tree, serial);
     build(balls.list(), bvh::CodeBits::bits_63, work, tree, serial);
     std::vector<std::uint32_t> out(50000);
-    std::uint64_t const before = allocations_made();
+    std::uint64_t const before = check::allocations_made();
     build(fewer.list(), bvh::CodeBits::bits_30, work, tree, serial);
     build(balls.list(), bvh::CodeBits::bits_63, work, tree, items_list::BackwardExecutor{});
     static_cast<void>(refit(tree, balls.list()));
     std::size_t const hits = query_by_id(tree.view(), bvh::SphereRegion{{math::vec3(0.0F), 50.0F}}, out);
-    CHECK(allocations_made() == before);
+    CHECK(check::allocations_made() == before);
     CHECK(hits > 1000);
 }
