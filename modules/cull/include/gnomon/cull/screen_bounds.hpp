@@ -7,6 +7,7 @@
 
 #include <gnomon/math/bounds.hpp>
 #include <gnomon/math/scalar.hpp>
+#include <gnomon/math/touch.hpp>
 #include <gnomon/math/vec.hpp>
 
 #include <cmath>

@@ -146,7 +146,8 @@ GN_FN GN_VEC3 gn_nearest_of_sector(GN_IN(GN_TYPE(GnSector)) s, GN_VEC3 p) {
     GN_PRECISE GN_FLOAT border = s.cosine * size;
     GN_PRECISE GN_FLOAT foot = along * s.cosine + beside * s.sine;
     GN_FLOAT k = gn_clamped(foot, GN_FLOAT(0.0), s.range);
-    GN_FLOAT per_rest = GN_SELECT(beside > 0.0, gn_div(k * s.sine, beside), GN_FLOAT(0.0));
+    GN_PRECISE GN_FLOAT aside = k * s.sine;
+    GN_FLOAT per_rest = GN_SELECT(beside > 0.0, gn_div(aside, beside), GN_FLOAT(0.0));
     GN_FLOAT per_size = GN_SELECT(size > s.range, gn_div(s.range, size), GN_FLOAT(1.0));
     GN_PRECISE GN_VEC3 on_border = s.apex + (s.axis * (k * s.cosine) + rest * per_rest);
     GN_PRECISE GN_VEC3 inside = s.apex + v * per_size;
@@ -169,8 +170,9 @@ GN_FN GN_VEC3 gn_nearest_of_crate(GN_IN(GN_TYPE(GnCrate)) c, GN_VEC3 p) {
 GN_FN GN_BOOL gn_touches_plane_sector(GN_IN(GnPlane) plane, GN_IN(GN_TYPE(GnSector)) s) {
     GN_TYPE(GnReach) r = gn_reach_of_sector(s, GN_VEC3(plane.normal));
     GN_PRECISE GN_FLOAT value = r.value + plane.offset;
-    GN_PRECISE GN_FLOAT magnitude = (gn_dot3(gn_abs3(s.apex), GN_VEC3(plane.magnitude)) + s.range * plane.norm) + abs(plane.offset);
-    return gn_may_be_inside(value, magnitude * 4.0) && s.range >= 0.0;
+    GN_PRECISE GN_FLOAT fourth = (gn_dot3(gn_abs3(s.apex), GN_VEC3(plane.magnitude)) + s.range * plane.norm) + abs(plane.offset);
+    GN_PRECISE GN_FLOAT magnitude = fourth * 4.0;
+    return gn_may_be_inside(value, magnitude) && s.range >= 0.0;
 }
 
 /// Half-space and crate.
@@ -179,8 +181,9 @@ GN_FN GN_BOOL gn_touches_plane_crate(GN_IN(GnPlane) plane, GN_IN(GN_TYPE(GnCrate
     GN_TYPE(GnReach) r = gn_reach_of_crate(c, GN_VEC3(plane.normal));
     GN_PRECISE GN_FLOAT value = r.value + plane.offset;
     GN_PRECISE GN_FLOAT axes = (gn_dot3(gn_abs3(c.axis_x), m) + gn_dot3(gn_abs3(c.axis_y), m)) + gn_dot3(gn_abs3(c.axis_z), m);
-    GN_PRECISE GN_FLOAT magnitude = (gn_dot3(gn_abs3(c.center), m) + axes) + abs(plane.offset);
-    return gn_may_be_inside(value, magnitude * 4.0) && gn_is_finite_crate(c);
+    GN_PRECISE GN_FLOAT fourth = (gn_dot3(gn_abs3(c.center), m) + axes) + abs(plane.offset);
+    GN_PRECISE GN_FLOAT magnitude = fourth * 4.0;
+    return gn_may_be_inside(value, magnitude) && gn_is_finite_crate(c);
 }
 
 /// Sector and sphere, by the direction from the sector's nearest point.
