@@ -1,3 +1,4 @@
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/cluster/unique.hpp>
 #include <gnomon/core/executor_threads.hpp>
@@ -6,8 +7,6 @@
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "allocations.hpp"
 
 namespace {
 
@@ -169,14 +168,13 @@ TEST_CASE("unique clusters are found without allocating once the workspace has g
     std::vector<std::uint32_t> index(c.keys.size());
     cluster::UniqueOut<std::uint32_t> const out{keys, index};
     std::span<std::uint32_t const> const in(c.keys);
-    core::SerialExecutor const serial;
     auto const run = [&] {
-        std::size_t const a = unique_by_bitmap(c.layout, in, out, work, serial).clusters;
-        std::size_t const b = unique_by_page_table(c.layout, in, out, work, serial).clusters;
-        return a + b + unique_by_local_sort(c.layout, in, out, work, serial).clusters;
+        std::size_t const a = unique_by_bitmap(c.layout, in, out, work).clusters;
+        std::size_t const b = unique_by_page_table(c.layout, in, out, work).clusters;
+        return a + b + unique_by_local_sort(c.layout, in, out, work).clusters;
     };
     std::size_t const first = run();
-    std::size_t const before = allocations();
+    std::uint64_t const before = check::allocations_made();
     CHECK(run() == first);
-    CHECK(allocations() == before);
+    CHECK(check::allocations_made() == before);
 }

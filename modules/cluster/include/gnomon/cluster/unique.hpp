@@ -6,6 +6,7 @@
 //
 // source: [Olsson 2014, Paper II, 3.2, 3.4, 4.2, 4.3]
 
+#include <gnomon/cluster/detail/serial.hpp>
 #include <gnomon/cluster/key.hpp>
 #include <gnomon/cluster/unique_workspace.hpp>
 #include <gnomon/core/executor.hpp>
@@ -26,27 +27,27 @@ template <Key K>
 /// expects: `fits_table(layout)`; `out.index` as large as `keys`; fewer than 2^32 - 1 samples
 /// returns: the needed number of keys, see `UniqueStats`
 /// cost:    O(samples + domain / 262144); 2 bits for each key there could be
-template <Key K, core::Executor E>
+template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_bitmap(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
-                             UniqueWorkspace<K>& work, E& executor);
+                             UniqueWorkspace<K>& work, E& executor = detail::serial);
 
 /// Flags the pages of keys, numbers the flagged ones by a prefix sum, flags keys in those, and compacts them.
 ///
 /// expects: as `unique_by_bitmap`
 /// cost:    O(samples + domain / 64 + 64 pages); half a bit for each key there could be, 256 bytes a page with a key
 /// source:  [Olsson 2014, Paper II, 3.2, 4.3]
-template <Key K, core::Executor E>
+template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_page_table(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
-                                 UniqueWorkspace<K>& work, E& executor);
+                                 UniqueWorkspace<K>& work, E& executor = detail::serial);
 
 /// Sorts and compacts the runs of each block of samples, merges the blocks' lists, and links runs to the result.
 ///
 /// expects: as `unique_by_bitmap`, but for the layout, which may be any
 /// cost:    O(runs log(runs of a block) + keys log blocks); independent of the domain
 /// source:  [Olsson 2014, Paper II, 3.2, 4.2]; a tile is a block of consecutive samples here, of any image
-template <Key K, core::Executor E>
+template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_local_sort(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
-                                 UniqueWorkspace<K>& work, E& executor);
+                                 UniqueWorkspace<K>& work, E& executor = detail::serial);
 
 }  // namespace gnomon::cluster
 
