@@ -201,6 +201,17 @@ template <Lane T, std::size_t N>
 template <std::signed_integral T, std::size_t N>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t bits(Lanes<T, N> const& mask) noexcept {
     std::uint32_t r = 0;
+#if GNOMON_VECTOR_EXTENSION && defined(__SSE2__)
+    if constexpr (sizeof(T) == 4 && N >= 4) {  // compilers do not find the machine's instruction themselves
+        typedef float Four __attribute__((vector_size(16)));
+        for (std::size_t i = 0; i < N; i += 4) {
+            Four part;
+            std::memcpy(&part, reinterpret_cast<char const*>(&mask.v) + 4 * i, sizeof(part));
+            r |= static_cast<std::uint32_t>(__builtin_ia32_movmskps(part)) << i;
+        }
+        return r;
+    }
+#endif
     for (std::size_t i = 0; i < N; ++i) r |= static_cast<std::uint32_t>(mask.v[i] < 0) << i;
     return r;
 }

@@ -101,6 +101,7 @@ GN_FN GN_BOOL gn_touches_sector_cell(GN_IN(GN_TYPE(GnSector)) s, GN_IN(GN_TYPE(G
     GN_PRECISE GN_VEC3 first = s.apex - b;
     GN_BOOL apart = gn_gap_of_sector_cell(s, c, first, perspective);
     for (int i = 0; i < steps; ++i) {
+        if (!GN_ANY(!apart)) return false;
         GN_VEC3 a = gn_nearest_of_sector(s, b);
         GN_PRECISE GN_VEC3 forth = a - b;
         apart = apart || gn_gap_of_sector_cell(s, c, forth, perspective);
@@ -121,6 +122,7 @@ GN_FN GN_BOOL gn_touches_crate_cell(GN_IN(GN_TYPE(GnCrate)) s, GN_IN(GN_TYPE(GnC
     GN_VEC3 b = gn_nearest_of_cell(c, s.center, perspective);
     GN_BOOL apart = false;
     for (int i = 0; i < 4; ++i) {
+        if (!GN_ANY(!apart)) return false;
         GN_VEC3 a = gn_nearest_of_crate(s, b);
         GN_PRECISE GN_VEC3 forth = a - b;
         apart = apart || gn_gap_of_crate_cell(s, c, forth, perspective);
@@ -142,6 +144,7 @@ GN_FN GN_BOOL gn_touches_box_cell(GN_IN(GN_TYPE(GnBox)) box, GN_IN(GN_TYPE(GnCel
     GN_VEC3 b = gn_nearest_of_cell(c, middle, perspective);
     GN_BOOL apart = false;
     for (int i = 0; i < 3; ++i) {
+        if (!GN_ANY(!apart)) return false;
         GN_VEC3 a = gn_nearest_of_box(box, b);
         GN_PRECISE GN_VEC3 forth = a - b;
         apart = apart || gn_gap_of_box_cell(box, c, forth, perspective);

@@ -204,6 +204,7 @@ GN_FN GN_BOOL gn_touches_sector_box(GN_IN(GN_TYPE(GnSector)) s, GN_IN(GN_TYPE(Gn
     GN_VEC3 b = gn_nearest_of_box(box, s.apex);
     GN_BOOL apart = gn_gap_of_sector_box(s, box, s.apex, b);
     for (int i = 0; i < 3; ++i) {
+        if (!GN_ANY(!apart)) return false;
         GN_VEC3 a = gn_nearest_of_sector(s, b);
         apart = apart || gn_gap_of_sector_box(s, box, a, b);
         b = gn_nearest_of_box(box, a);
@@ -222,6 +223,7 @@ GN_FN GN_BOOL gn_touches_crate_box(GN_IN(GN_TYPE(GnCrate)) c, GN_IN(GN_TYPE(GnBo
     GN_VEC3 b = gn_nearest_of_box(box, c.center);
     GN_BOOL apart = false;
     for (int i = 0; i < 4; ++i) {
+        if (!GN_ANY(!apart)) return false;
         GN_VEC3 a = gn_nearest_of_crate(c, b);
         GN_PRECISE GN_VEC3 forth = a - b;
         apart = apart || gn_gap_of_crate_box(c, box, forth);
