@@ -53,9 +53,9 @@ Halfspaces<T> halfspaces_of(cluster::GridView const& g, Cell c) {
 
 /// Solves a symmetric positive system of up to three unknowns; false where it is singular.
 template <class T>
-bool solve(std::array<std::array<T, 3>, 3> a, std::array<T, 3> b, std::size_t n, std::array<T, 3>& x) {
+bool solve(std::array<std::array<T, 3>, 3> a, std::array<T, 3> b, std::size_t n, std::array<T, 3>& x, T least = T(1e-14)) {
     for (std::size_t i = 0; i < n; ++i) {
-        if (!(a[i][i] > T(1e-14))) return false;
+        if (!(a[i][i] > least)) return false;
         for (std::size_t k = i + 1; k < n; ++k) {
             T const f = a[k][i] / a[i][i];
             for (std::size_t j = i; j < n; ++j) a[k][j] -= f * a[i][j];

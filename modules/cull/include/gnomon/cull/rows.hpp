@@ -7,7 +7,7 @@
 
 #include <gnomon/cluster/grid_view.hpp>
 #include <gnomon/core/contract.hpp>
-#include <gnomon/cull/formula/rows.glsl>
+#include <gnomon/cull/formula/spot_rows.glsl>
 #include <gnomon/math/vec.hpp>
 
 #include <cstddef>
@@ -18,6 +18,7 @@
 namespace gnomon::cull {
 
 using ReadyBall = formula::GnReadyBall<float>;
+using ReadySpot = formula::GnReadySpot<float>;
 using Span = formula::GnSpan<float>;
 
 /// Columns `first` to `last`, both touched; none where `first > last`.
@@ -94,6 +95,16 @@ struct RowGrid {
     return formula::gn_ready_ball(formula::Vec3<float>(center), formula::Float<float>(radius), perspective);
 }
 
+/// Whether a cone is narrow enough for `ready_spot`: wider ones are culled as their ball.
+[[nodiscard]] inline bool is_narrow(float cosine, float sine) noexcept { return cosine >= 0.015625F * sine; }
+
+/// expects: as `ready_ball`; `is_narrow(cosine, sine)`; an axis whose length is between 2^-20 and 2^30.
+[[nodiscard]] inline ReadySpot ready_spot(ReadyBall const& ball, math::vec3 const& axis, float cosine, float sine,
+                                          bool perspective) noexcept {
+    return formula::gn_ready_spot(ball, formula::Vec3<float>(axis), formula::Float<float>(cosine), formula::Float<float>(sine),
+                                  perspective);
+}
+
 /// The columns whose closed interval of x a span touches.
 ///
 /// cost: O(log columns)
@@ -123,6 +134,11 @@ struct RowGrid {
 [[nodiscard]] inline Columns columns_of(RowGrid const& grid, ReadyBall const& ball, std::uint32_t row, std::uint32_t slice) {
     GNOMON_EXPECT(row < grid.rows && slice < grid.slices);
     return columns_of(grid, formula::gn_ball_row(ball, grid.row(row, slice), grid.perspective));
+}
+
+[[nodiscard]] inline Columns columns_of(RowGrid const& grid, ReadySpot const& spot, std::uint32_t row, std::uint32_t slice) {
+    GNOMON_EXPECT(row < grid.rows && slice < grid.slices);
+    return columns_of(grid, formula::gn_spot_row(spot, grid.row(row, slice), grid.perspective));
 }
 
 }  // namespace gnomon::cull

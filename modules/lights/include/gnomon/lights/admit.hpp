@@ -2,6 +2,7 @@
 // Which lights take part: what is bad or on other layers is left out, and counted.
 
 #include <gnomon/core/contract.hpp>
+#include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/light.hpp>
 
 #include <cmath>
@@ -18,7 +19,8 @@ inline constexpr float max_size_m = 1152921504606846976.0F;
 /// What became of a list of lights.
 struct Report {
     std::uint32_t taken = 0;     ///< took part, whether or not they touch a cluster
-    std::uint32_t bad = 0;       ///< left out: NaN, infinite, beyond 2^60 m, or a range (a box's size) not above 0
+    std::uint32_t bad = 0;       ///< left out: NaN, infinite, beyond 2^60 m, or a range (a box's size) not above 0,
+                               ///< an axis shorter than 2^-20, an angle that is none
     std::uint32_t masked = 0;    ///< left out: on none of the layers asked for
     friend bool operator==(Report const&, Report const&) = default;
 };
@@ -51,8 +53,12 @@ namespace detail {
     if (l.kind == Kind::directional) return true;
     if (!detail::is_sound(l.center)) return false;
     if (l.kind == Kind::box && !(detail::is_sound(l.axis) && detail::is_sound(l.side) && detail::is_sound(l.other))) return false;
-    if (l.kind == Kind::spot && !(detail::is_sound(l.axis) && std::abs(l.cos_half) <= 1.0F && l.sin_half >= 0.0F && l.sin_half <= 1.0F))
-        return false;
+    if (l.kind == Kind::spot) {
+        float const axis_sq = l.axis.x * l.axis.x + l.axis.y * l.axis.y + l.axis.z * l.axis.z;
+        if (!(axis_sq >= 0x1p-40F && axis_sq <= 0x1p60F)) return false;
+        if (!(std::abs(l.cos_half) <= 1.0F && l.sin_half >= 0.0F && l.sin_half <= 1.0F)) return false;
+        if (l.cos_half * l.cos_half + l.sin_half * l.sin_half < 0.5F) return false;
+    }
     float const r = bounding_radius_m(l);
     return r > 0.0F && r <= max_size_m;
 }
@@ -74,6 +80,8 @@ struct LightPairs {
 /// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
 struct Workspace {
     std::vector<float> x, y, depth, radius;  ///< of the lights that take part, padded with copies to a multiple of 8
+    std::vector<float> axis[3], cosine, sine;  ///< of the narrow spots among them; the others have a cosine of -1
+    bool cones = false;                      ///< there are such spots
     std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending; padded too
     std::size_t count = 0;
     std::vector<Run> runs;                   ///< lists: what each light touches, by lights
@@ -82,14 +90,31 @@ struct Workspace {
     std::vector<LightPairs> pairs;           ///< lists: used where a fixed capacity overflows
 };
 
-/// Fills the first five lists of `work`.
+namespace detail {
+
+inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept {
+    work.cosine[n] = -1.0F;
+    if (l.kind != Kind::spot || !cull::is_narrow(l.cos_half, l.sin_half)) return;
+    work.axis[0][n] = l.axis.x;
+    work.axis[1][n] = l.axis.y;
+    work.axis[2][n] = l.axis.z;
+    work.cosine[n] = l.cos_half;
+    work.sine[n] = l.sin_half;
+    work.cones = true;
+}
+
+}  // namespace detail
+
+/// Fills the lists of what takes part.
 ///
 /// cost: O(lights)
 [[nodiscard]] inline Report admit(std::span<Light const> lights, std::uint32_t layers, Workspace& work) {
     GNOMON_EXPECT(lights.size() < 0xFFFFFFFFU);
     std::size_t const padded = lights.size() + 8;
-    for (auto* list : {&work.x, &work.y, &work.depth, &work.radius}) list->resize(padded);
+    for (auto* list : {&work.x, &work.y, &work.depth, &work.radius, &work.axis[0], &work.axis[1], &work.axis[2], &work.cosine, &work.sine})
+        list->resize(padded);
     work.index.resize(padded);
+    work.cones = false;
     Report report;
     std::size_t n = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -103,6 +128,7 @@ struct Workspace {
             work.y[n] = l.center.y;
             work.depth[n] = l.center.z;
             work.radius[n] = bounding_radius_m(l);
+            detail::admit_cone(l, n, work);
             work.index[n++] = static_cast<std::uint32_t>(i);
         }
     }
@@ -110,6 +136,7 @@ struct Workspace {
     work.count = n;
     for (std::size_t i = n; i < padded; ++i) {
         work.index[i] = 0;
+        work.cosine[i] = -1.0F;
         work.x[i] = work.y[i] = 0.0F;
         work.depth[i] = work.radius[i] = 1.0F;
     }

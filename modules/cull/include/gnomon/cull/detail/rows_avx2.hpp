@@ -5,7 +5,7 @@
 // over their borders; larger ones one at a time, a border a lane. Arcs are made once a border, corners once a border and
 // plane, for both slices beside it.
 
-#include <gnomon/cull/detail/ready_avx2.hpp>
+#include <gnomon/cull/detail/spots_avx2.hpp>
 
 #if GNOMON_CULL_AVX2
 
@@ -15,108 +15,54 @@ namespace gnomon::cull::detail {
 
 inline constexpr int small_rows = 4, small_slices = 4, small_columns = 8;
 
-/// GnPlaneCut
-struct Cut8 {
-    F8 depth, scale, inverse, rest;
-    Span8 cap;
-    bool crosses;  ///< any lane's plane crosses its ball; otherwise nothing but `rest` is set
-};
-
-/// GnCap
-struct Cap8 {
-    Span8 span;
-    F8 low_scale, high_scale;
-};
-
-/// gn_corner
-GNOMON_ROWS_INLINE Span8 corner(F8 x, F8 off, F8 rest, F8 inverse) noexcept {
-    F8 const left = rest - off * off, zero = all(0.0F), far = all(formula::gn_far());
-    F8 const s = root(greatest(left, zero)), any = left >= zero;
-    return {select(any, (x - s) * inverse, far), select(any, (x + s) * inverse, zero - far)};
-}
-
-/// gn_border_arc
+/// The directions' ends in the slices between the planes of `cut`, a light a lane.
 template <bool perspective>
-GNOMON_ROWS_INLINE Arc8 border_arc(Ready8 const& b, Border8 const& border) noexcept {
-    if constexpr (!perspective) {
-        F8 const off = b.y - border.y;
-        return flat_arc_of(b.x, b.depth, b.radius_sq - off * off);
+GNOMON_ROWS_INLINE void make_sides(RowGrid const& g, Ready8 const& b, Spots8 const& spots, Cut8 const* cut, int slices, Sides8* sides) noexcept {
+    Aim8 const aim{b.depth, spots.slack, spots.depth};
+    for (int i = 0; i < 4; ++i) {
+        SideCut8 near = side_cut<perspective>(aim, spots.side[i], cut[0]);
+        for (int k = 0; k < slices; ++k) {
+            SideCut8 const far = side_cut<perspective>(aim, spots.side[i], cut[k + 1]);
+            sides[k].t[i] = side_within(spots.side[i].bound, near, far);
+            near = far;
+        }
     }
-    F8 const off = (b.y - border.y * b.depth) * border.cosine;
-    return arc_of(b.x, (b.y * border.y + b.depth) * border.cosine, b.radius_sq - off * off, b.tangent, border);
+    for (int k = 0; k < slices; ++k)
+        sides[k].inverse = gather(g.inverse.data(), least(b.slice_first + all(k), all(static_cast<std::int32_t>(g.slices))));
 }
 
-/// gn_ends and gn_within
-GNOMON_ROWS_INLINE Span8 within(Arc8 const& arc, Cut8 const& near, Span8 near_corner, Cut8 const& far, Span8 far_corner) noexcept {
-    F8 const zero = all(0.0F), none = all(formula::gn_far()), any = arc.rest >= zero;
-    Span8 s{select(any, arc.span.low, none), select(any, arc.span.high, zero - none)};
-    if (far.crosses) {
-        F8 const at = far.depth * arc.unit, here = far.rest >= zero;
-        s.low = select(here & (arc.low_at >= at), far_corner.low, s.low);
-        s.high = select(here & (arc.high_at >= at), far_corner.high, s.high);
-    }
-    if (near.crosses) {
-        F8 const at = near.depth * arc.unit, here = near.rest >= zero;
-        s.low = select(here & (arc.low_at <= at), near_corner.low, s.low);
-        s.high = select(here & (arc.high_at <= at), near_corner.high, s.high);
-    }
-    return s;
-}
-
-/// gn_slice_cap
-GNOMON_ROWS_INLINE Cap8 slice_cap(Ready8 const& b, Cut8 const& near, Cut8 const& far) noexcept {
-    F8 const zero = all(0.0F);
-    Cap8 c{b.cap.span, b.cap_low_scale, b.cap_high_scale};
-    if (far.crosses) {
-        F8 const at = far.depth * b.cap.unit, here = far.rest >= zero;
-        F8 const low = here & (b.cap.low_at >= at), high = here & (b.cap.high_at >= at);
-        c.span = {select(low, far.cap.low, c.span.low), select(high, far.cap.high, c.span.high)};
-        c.low_scale = select(low, far.scale, c.low_scale);
-        c.high_scale = select(high, far.scale, c.high_scale);
-    }
-    if (near.crosses) {
-        F8 const at = near.depth * b.cap.unit, here = near.rest >= zero;
-        F8 const low = here & (b.cap.low_at <= at), high = here & (b.cap.high_at <= at);
-        c.span = {select(low, near.cap.low, c.span.low), select(high, near.cap.high, c.span.high)};
-        c.low_scale = select(low, near.scale, c.low_scale);
-        c.high_scale = select(high, near.scale, c.high_scale);
-    }
-    return c;
-}
-
-/// A row of a slice: its borders, the cap, and what the ball covers of the borders.
-struct Row8 {
-    F8 y, next_y;
-    Span8 top, bottom;
+/// One spot of eight: what `side_cut` needs with a direction a lane, and its silhouettes in every lane.
+struct OneSpot {
+    Aim8 aim;
+    Side8 side;
+    Silhouette8 outline[2];
 };
 
-/// gn_joined, and the bounds of the whole ball.
-GNOMON_ROWS_INLINE Span8 joined(Ready8 const& b, Row8 const& row, Cap8 const& cap) noexcept {
-    F8 const low_in = and_not(row.y * cap.low_scale <= b.y, row.next_y * cap.low_scale <= b.y);
-    F8 const high_in = and_not(row.y * cap.high_scale <= b.y, row.next_y * cap.high_scale <= b.y);
-    F8 const low = least(row.top.low, row.bottom.low), high = greatest(row.top.high, row.bottom.high);
-    return {greatest(select(low_in, least(low, cap.span.low), low), b.x_bounds.low),
-            least(select(high_in, greatest(high, cap.span.high), high), b.x_bounds.high)};
+GNOMON_ROWS_INLINE F8 four(F8 const& a, F8 const& b, F8 const& c, F8 const& d, std::uint32_t lane) noexcept {
+    auto const at = [lane](F8 const& from) { return reinterpret_cast<float const*>(&from)[lane]; };
+    return {_mm256_setr_ps(at(a), at(b), at(c), at(d), 0.0F, 0.0F, 0.0F, 0.0F)};
 }
 
-GNOMON_ROWS_INLINE void set_cut(Ready8 const& b, F8 depth, F8 scale, F8 inverse, Cut8& c) noexcept {
-    c.depth = depth, c.scale = scale, c.inverse = inverse;
-    c.cap = corner(b.x, all(0.0F), c.rest, inverse);
-}
-
-/// The plane `k` of each lane; lanes beyond the last plane get it.
-GNOMON_ROWS_INLINE void gather_cut(RowGrid const& g, Ready8 const& b, I8 k, F8 lanes, Cut8& c) noexcept {
-    I8 const at = least(k, all(static_cast<std::int32_t>(g.slices)));
-    F8 const depth = gather(g.depth_m.data(), at), off = depth - b.depth, zero = all(0.0F);
-    c = {zero, zero, zero, b.radius_sq - off * off, {zero, zero}, false};
-    c.crosses = bits_of((c.rest >= zero) & lanes) != 0;
-    if (c.crosses) set_cut(b, depth, gather(g.scale.data(), at), gather(g.inverse.data(), at), c);
+GNOMON_ROWS_INLINE void pick(Ready8 const& b, Spots8 const& from, std::uint32_t lane, OneSpot& to) noexcept {
+    Side8 const(&s)[4] = from.side;
+    to.aim = {pick(b.depth, lane), pick(from.slack, lane), {pick(from.depth.low, lane), pick(from.depth.high, lane)}};
+    to.side.middle = four(s[0].middle, s[1].middle, s[2].middle, s[3].middle, lane);
+    to.side.bound = four(s[0].bound, s[1].bound, s[2].bound, s[3].bound, lane);
+    to.side.first = {four(s[0].first.slope, s[1].first.slope, s[2].first.slope, s[3].first.slope, lane),
+                     four(s[0].first.inverse, s[1].first.inverse, s[2].first.inverse, s[3].first.inverse, lane),
+                     four(s[0].first.at_eye, s[1].first.at_eye, s[2].first.at_eye, s[3].first.at_eye, lane)};
+    to.side.second = {four(s[0].second.slope, s[1].second.slope, s[2].second.slope, s[3].second.slope, lane),
+                      four(s[0].second.inverse, s[1].second.inverse, s[2].second.inverse, s[3].second.inverse, lane),
+                      four(s[0].second.at_eye, s[1].second.at_eye, s[2].second.at_eye, s[3].second.at_eye, lane)};
+    for (int i = 0; i < 2; ++i)
+        to.outline[i] = {pick(from.outline[i].upper, lane), pick(from.outline[i].start, lane), pick(from.outline[i].lean, lane),
+                         pick(from.outline[i].off, lane)};
 }
 
 /// Calls `sink.row(lane, slice, row, low, high)` for the rows of the balls of `lanes` (a mask) that are not empty: slice
 /// and row counted from each ball's first. All of them must be small.
-template <bool perspective, class Sink>
-GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes, Sink& sink) noexcept {
+template <bool perspective, bool with_spots, class Sink>
+GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, Spots8 const& spots, F8 lanes, Sink& sink) noexcept {
     I8 const rows = b.row_last - b.row_first, slices = b.slice_last - b.slice_first;
     int slice_count = 1, row_count = 1;
     while (slice_count < small_slices && bits_of((slices > all(slice_count - 1)) & lanes) != 0) ++slice_count;
@@ -127,6 +73,8 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes,
     Span8 above[small_slices];
     for (int k = 0; k <= slice_count; ++k) gather_cut(g, b, b.slice_first + all(k), lanes, cut[k]);
     for (int k = 0; k < slice_count; ++k) cap[k] = slice_cap(b, cut[k], cut[k + 1]);
+    Sides8 sides[small_slices];
+    if constexpr (with_spots) make_sides<perspective>(g, b, spots, cut, slice_count, sides);
 
     F8 y = all(0.0F);
     for (int j = 0; j <= row_count; ++j) {
@@ -141,7 +89,11 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes,
             if (k == 0) continue;
             Span8 const below = within(arc, cut[k - 1], near_corner, cut[k], far_corner);
             if (j > 0) {
-                Span8 const s = joined(b, {y, next_y, above[k - 1], below}, cap[k - 1]);
+                Span8 s = joined(b, {y, next_y, above[k - 1], below}, cap[k - 1]);
+                if constexpr (with_spots) {
+                    Span8 const in_spot = cut_row(s, sides[k - 1], spots.outline, y, next_y);
+                    s = {select(spots.there, in_spot.low, s.low), select(spots.there, in_spot.high, s.high)};
+                }
                 std::uint32_t some = bits_of(and_not((s.low <= s.high) & in_rows, all(k - 1) > slices));
                 if (some != 0) {
                     alignas(32) float low[8], high[8];
@@ -159,36 +111,13 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, F8 lanes,
     }
 }
 
-GNOMON_ROWS_INLINE F8 pick(F8 const& from, std::uint32_t lane) noexcept { return spread(reinterpret_cast<float const*>(&from) + lane); }
-GNOMON_ROWS_INLINE std::uint32_t pick(I8 const& from, std::uint32_t lane) noexcept {
-    return reinterpret_cast<std::uint32_t const*>(&from)[lane];
-}
-
-/// One ball of eight, in every lane.
-GNOMON_ROWS_INLINE void pick(Ready8 const& from, std::uint32_t lane, Ready8& r) noexcept {
-    r.x = pick(from.x, lane), r.y = pick(from.y, lane), r.depth = pick(from.depth, lane);
-    r.radius_sq = pick(from.radius_sq, lane), r.tangent = pick(from.tangent, lane);
-    r.cap.span = {pick(from.cap.span.low, lane), pick(from.cap.span.high, lane)};
-    r.cap.low_at = pick(from.cap.low_at, lane), r.cap.high_at = pick(from.cap.high_at, lane), r.cap.unit = pick(from.cap.unit, lane);
-    r.cap_low_scale = pick(from.cap_low_scale, lane), r.cap_high_scale = pick(from.cap_high_scale, lane);
-    r.x_bounds = {pick(from.x_bounds.low, lane), pick(from.x_bounds.high, lane)};
-}
-
-/// The same plane in every lane, with the corners of the lanes' borders on it.
-GNOMON_ROWS_INLINE Span8 spread_cut(RowGrid const& g, Ready8 const& b, F8 y, std::uint32_t k, Cut8& c) noexcept {
-    F8 const depth = spread(g.depth_m.data() + k), off = depth - b.depth, zero = all(0.0F);
-    c = {zero, zero, zero, b.radius_sq - off * off, {zero, zero}, false};
-    c.crosses = (bits_of(c.rest >= zero) & 1U) != 0;
-    if (!c.crosses) return {zero, zero};
-    set_cut(b, depth, spread(g.scale.data() + k), spread(g.inverse.data() + k), c);
-    return corner(b.x, y * c.scale - b.y, c.rest, c.inverse);
-}
-
 /// Calls `sink.row(slice, row, low, high)` for the rows of one ball of eight, slice and row counted from the grid's first.
-template <bool perspective, class Sink>
-GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, std::uint32_t lane, Sink& sink) noexcept {
+template <bool perspective, bool is_spot, class Sink>
+GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, Spots8 const& spots, std::uint32_t lane, Sink& sink) noexcept {
     Ready8 b;
+    OneSpot spot;
     pick(eight, lane, b);
+    if constexpr (is_spot) pick(eight, spots, lane, spot);
     std::uint32_t const first = pick(eight.row_first, lane), last = pick(eight.row_last, lane);
     std::uint32_t const slice_first = pick(eight.slice_first, lane), slice_last = pick(eight.slice_last, lane);
     for (std::uint32_t j = first; j <= last; j += 7) {
@@ -197,11 +126,19 @@ GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, std::
         Arc8 const arc = border_arc<perspective>(b, {y, load(g.secant.data() + j), load(g.cosine.data() + j)});
         Cut8 near;
         Span8 near_corner = spread_cut(g, b, y, slice_first, near);
+        SideCut8 near_sides;
+        if constexpr (is_spot) near_sides = side_cut<perspective>(spot.aim, spot.side, near);
         for (std::uint32_t k = slice_first; k <= slice_last; ++k) {
             Cut8 far;
             Span8 const far_corner = spread_cut(g, b, y, k + 1, far);
             Span8 const top = within(arc, near, near_corner, far, far_corner);
-            Span8 const s = joined(b, {y, next_y, top, {next_lane(top.low), next_lane(top.high)}}, slice_cap(b, near, far));
+            Span8 s = joined(b, {y, next_y, top, {next_lane(top.low), next_lane(top.high)}}, slice_cap(b, near, far));
+            if constexpr (is_spot) {
+                SideCut8 const far_sides = side_cut<perspective>(spot.aim, spot.side, far);
+                F8 const t = side_within(spot.side.bound, near_sides, far_sides);
+                s = cut_row(s, {{pick(t, 0), pick(t, 1), pick(t, 2), pick(t, 3)}, spread(g.inverse.data() + k)}, spot.outline, y, next_y);
+                near_sides = far_sides;
+            }
             std::uint32_t some = bits_of(s.low <= s.high) & ((1U << rows) - 1U);
             alignas(32) float low[8], high[8];
             store(low, s.low);
@@ -216,18 +153,46 @@ GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, std::
     }
 }
 
-/// All balls: `sink.eight(n, ready)` before each eight; `sink.large(lane, ready)` before the rows of a large one,
-/// which come after those of the small ones and in the order of lanes; `sink.done()` after each eight.
+/// What is culled, in arrays that may be read in eights: balls, and for cones axis, cosine and sine. `cosine` is -1 where
+/// there is no cone; null: there are none at all.
+struct Input {
+    float const* x;
+    float const* y;
+    float const* depth;
+    float const* radius;
+    float const* axis[3];
+    float const* cosine;
+    float const* sine;
+};
+
+template <bool perspective>
+GNOMON_ROWS_INLINE void find_spots(RowGrid const& g, Input const& in, std::size_t n, Ready8& b, Spots8& spots) noexcept {
+    spots.there = all(0.0F);
+    if (in.cosine != nullptr) {
+        F8 const cosine = load(in.cosine + n), sine = load(in.sine + n);
+        spots.there = cosine >= all(0.015625F) * sine;
+        if (bits_of(spots.there) != 0) {
+            make_cone(b, {load(in.axis[0] + n), load(in.axis[1] + n), load(in.axis[2] + n)}, cosine, sine, spots);
+            make_spots<perspective>(b, spots);
+        }
+    }
+    find_reach(g, b);
+    if (bits_of(spots.there) != 0) cut_slices(g, spots, b);
+}
+
+/// All lights: `sink.eight(n, ready)` before each eight; `sink.large(lane, ready)` before the rows of a large one, which
+/// come after those of the small ones and in the order of lanes; `sink.done()` after each eight.
 template <bool perspective, class Sink>
-GNOMON_ROWS_INLINE void visit_balls(RowGrid const& g, float const* const (&xyzr)[4], std::size_t count, Sink& sink) noexcept {
+GNOMON_ROWS_INLINE void visit_all(RowGrid const& g, Input const& in, std::size_t count, Sink& sink) noexcept {
     Ready8 b;
+    Spots8 spots;
     for (std::size_t n = 0; n < count; n += 8) {
-        make_ready<perspective>(load(xyzr[0] + n), load(xyzr[1] + n), load(xyzr[2] + n), load(xyzr[3] + n), b);
-        find_reach(g, b);
+        make_ready<perspective>(load(in.x + n), load(in.y + n), load(in.depth + n), load(in.radius + n), b);
+        find_spots<perspective>(g, in, n, b, spots);
         std::uint32_t const there = count - n < 8 ? (1U << (count - n)) - 1U : 255U;
         F8 const big = (b.row_last - b.row_first > all(small_rows - 1)) | (b.slice_last - b.slice_first > all(small_slices - 1)) |
                        (b.column_last - b.column_first > all(small_columns - 1));
-        std::uint32_t const some = bits_of(b.reaches) & there;
+        std::uint32_t const some = bits_of(b.reaches) & there, cones = bits_of(spots.there);
         if (some == 0) continue;
         sink.eight(n, b);
         std::uint32_t large = bits_of(big) & some;
@@ -235,12 +200,15 @@ GNOMON_ROWS_INLINE void visit_balls(RowGrid const& g, float const* const (&xyzr)
             alignas(32) static constexpr std::int32_t bit[8] = {1, 2, 4, 8, 16, 32, 64, 128};
             __m256i const bits = _mm256_load_si256(reinterpret_cast<__m256i const*>(bit));
             __m256i const set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(some & ~large)), bits);
-            visit_small<perspective>(g, b, {_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, bits))}, sink);
+            F8 const lanes{_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, bits))};
+            if (cones != 0) visit_small<perspective, true>(g, b, spots, lanes, sink);
+            else visit_small<perspective, false>(g, b, spots, lanes, sink);
         }
         for (; large != 0; large &= large - 1) {
             auto const lane = static_cast<std::uint32_t>(std::countr_zero(large));
             sink.large(lane, b);
-            visit_large<perspective>(g, b, lane, sink);
+            if ((cones >> lane & 1U) != 0) visit_large<perspective, true>(g, b, spots, lane, sink);
+            else visit_large<perspective, false>(g, b, spots, lane, sink);
         }
         sink.done();
     }

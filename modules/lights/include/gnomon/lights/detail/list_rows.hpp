@@ -97,8 +97,7 @@ template <bool perspective>
 GNOMON_ROWS_TARGET void find_runs_avx2(cull::RowGrid const& grid, Workspace& work) {
     RunSink8 sink{work, grid, nullptr, nullptr, 0, {}, {}, {}, {}};
     sink.reserve(1);
-    float const* const xyzr[4] = {work.x.data(), work.y.data(), work.depth.data(), work.radius.data()};
-    cull::detail::visit_balls<perspective>(grid, xyzr, work.count, sink);
+    cull::detail::visit_all<perspective>(grid, input_of(work), work.count, sink);
     sink.reserve(1);
 }
 

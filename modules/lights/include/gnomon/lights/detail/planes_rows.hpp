@@ -90,8 +90,7 @@ struct PlaneSink8 {
 template <bool perspective>
 GNOMON_ROWS_TARGET void scatter_planes_avx2(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
     PlaneSink8 sink{to, grid, work.index.data(), {}, {}, {}};
-    float const* const xyzr[4] = {work.x.data(), work.y.data(), work.depth.data(), work.radius.data()};
-    cull::detail::visit_balls<perspective>(grid, xyzr, work.count, sink);
+    cull::detail::visit_all<perspective>(grid, input_of(work), work.count, sink);
 }
 
 #endif

@@ -1,6 +1,7 @@
 #pragma once
 // The rows of lights one at a time: the reference for what the lanes do.
 
+#include <gnomon/cull/detail/rows_avx2.hpp>
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/admit.hpp>
 #include <gnomon/lights/detail/shapes.hpp>
@@ -23,5 +24,15 @@ void scatter_scalar(cull::RowGrid const& grid, std::span<Light const> lights, Wo
                      });
     }
 }
+
+#if GNOMON_CULL_AVX2
+[[nodiscard]] inline cull::detail::Input input_of(Workspace const& w) noexcept {
+    return {w.x.data(),       w.y.data(),
+            w.depth.data(),   w.radius.data(),
+            {w.axis[0].data(), w.axis[1].data(), w.axis[2].data()},
+            w.cones ? w.cosine.data() : nullptr,
+            w.sine.data()};
+}
+#endif
 
 }  // namespace gnomon::lights::detail
