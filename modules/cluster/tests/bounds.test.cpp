@@ -110,6 +110,8 @@ TEST_CASE("approximate bounds hold the box of the samples that set their bits, a
         for (math::vec3 const& p : points) {
             exact = math::extended(exact, p);
             cluster::PositionBits const one = cluster::position_bits(implicit, p);
+            using Vec3 = formula::Vec3<float>;
+            CHECK(one == gn_position_bits(Vec3(p), Vec3(implicit.lo), Vec3(implicit.hi)).v);
             CHECK(std::popcount(one) == 3);
             CHECK(std::popcount(one & 0x3FFU) == 1);
             bits |= one;
@@ -139,6 +141,12 @@ TEST_CASE("every set of tenths reads back as its first and last", "[cluster]") {
     }
     float const inf = std::numeric_limits<float>::infinity();
     math::Aabb const open{math::vec3(-inf, 0.0F, 100.0F), math::vec3(0.0F, inf, inf)};
+    check::for_all(check::any_float<float>().with_nan().with_inf(), check::any_float<float>().with_nan().with_inf(), check::any_float<float>().with_nan().with_inf(),
+                   [](float at, float lo, float hi) {
+                       math::Aabb const any{math::vec3(hi < lo ? hi : lo), math::vec3(hi < lo ? lo : hi)};
+                       using Vec3 = formula::Vec3<float>;
+                       CHECK(cluster::position_bits(any, math::vec3(at)) == gn_position_bits(Vec3(math::vec3(at)), Vec3(any.lo), Vec3(any.hi)).v);
+                   });
     CHECK(cluster::approximate_bounds(open, cluster::position_bits(open, math::vec3(-1e30F, 5.0F, 1e10F))) == open);
 }
 

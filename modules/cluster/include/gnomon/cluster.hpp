@@ -5,6 +5,7 @@
 #include <gnomon/cluster/grid.hpp>
 #include <gnomon/cluster/grid_view.hpp>
 #include <gnomon/cluster/key.hpp>
+#include <gnomon/cluster/make_keys.hpp>
 #include <gnomon/cluster/normal_cells.hpp>
 #include <gnomon/cluster/reduce.hpp>
 #include <gnomon/cluster/slices.hpp>

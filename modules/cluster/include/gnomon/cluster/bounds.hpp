@@ -33,6 +33,38 @@ namespace detail {
     return border == 0.0F ? 0.0 : static_cast<double>(border) * static_cast<double>(depth_m);
 }
 
+/// `gn_part_bit` of one axis after another, by a guess of the part that the comparisons of its definition correct.
+class BoxTenths {
+public:
+    explicit BoxTenths(math::Aabb const& box) noexcept : box_(box), extent_(box.hi - box.lo) {
+        for (math::axis_t axis = 0; axis < 3; ++axis) {
+            float const scale = 10.0F / extent_[axis];
+            scale_[axis] = scale < std::numeric_limits<float>::max() ? scale : 0.0F;
+        }
+    }
+    [[nodiscard]] std::uint32_t bits(math::vec3 const& p) const noexcept {
+        return bit(p.x, 0) | bit(p.y, 1) << 10U | bit(p.z, 2) << 20U;
+    }
+
+private:
+    [[nodiscard]] std::uint32_t bit(float at, math::axis_t axis) const noexcept {
+        if (!(extent_[axis] <= 3.4e38F)) return 0x201U;
+        float const guess = (at - box_.lo[axis]) * scale_[axis];
+        int part = guess > 0.0F ? static_cast<int>(guess < 9.0F ? guess : 9.0F) : 0;
+        while (part > 0 && at < begin(part, axis)) --part;
+        while (part < 9 && at >= begin(part + 1, axis)) ++part;
+        return 1U << part;
+    }
+    [[nodiscard]] float begin(int part, math::axis_t axis) const noexcept {
+        using Float = formula::Float<float>;
+        return gn_part_begin(Float(box_.lo[axis]), Float(extent_[axis]), Float(part)).v;
+    }
+
+    math::Aabb box_;
+    math::vec3 extent_;
+    math::vec3 scale_{0.0F};
+};
+
 }  // namespace detail
 
 /// The smallest box of floats that holds a cluster's hexahedron, and `slack_m` more on each side along x and y.
@@ -61,8 +93,7 @@ using PositionBits = std::uint32_t;
 /// expects: a position in the box, which is a cluster's implicit one; outside of it the bounds would not hold it
 /// source:  [Olsson 2014, Paper III, 4.4]
 [[nodiscard]] inline PositionBits position_bits(math::Aabb const& implicit, math::vec3 const& position) noexcept {
-    using Vec3 = formula::Vec3<float>;
-    return gn_position_bits(Vec3(position), Vec3(implicit.lo), Vec3(implicit.hi)).v;
+    return detail::BoxTenths(implicit).bits(position);
 }
 
 /// The box of the tenths that `bits` take: it holds the box of the samples that set them.

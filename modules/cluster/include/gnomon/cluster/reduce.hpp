@@ -55,8 +55,8 @@ ReduceStats reduce_position_bits(std::span<std::uint32_t const> index, std::span
 /// A cone that holds the normals of each cluster's samples: its axis is the middle of their box, its cosine the least
 /// of any to it, computed in double and rounded down. Exact normals are within it, in exact arithmetic:
 ///
-///     the cosine in double errs by less than 20 * 2^-53 = 2.3e-15 (two sums of three exact products, a product, a
-///     root, a quotient); 4e-15 is taken off before it is rounded down
+///     the cosine in double errs by less than 20 * 2^-53 = 2.3e-15 (two sums of three exact products, their product,
+///     the comparison's, a quotient, a root); 4e-15 is taken off before it is rounded down
 ///
 /// expects: as `explicit_bounds`; normals of any length
 /// returns: what was left out. A cluster without samples has an empty cone (cosine 2); one with a normal that has no

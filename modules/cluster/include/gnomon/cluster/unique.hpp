@@ -26,7 +26,7 @@ template <Key K>
 ///
 /// expects: `fits_table(layout)`; `out.index` as large as `keys`; fewer than 2^32 - 1 samples
 /// returns: the needed number of keys, see `UniqueStats`
-/// cost:    O(samples + domain / 262144); 2 bits for each key there could be
+/// cost:    O(samples + domain / 16384); 2 bits for each key there could be
 template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_bitmap(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
                              UniqueWorkspace<K>& work, E& executor = detail::serial);

@@ -61,7 +61,7 @@ struct UniqueWorkspace {
     std::vector<std::uint8_t> changes;       ///< A bit a sample: where runs begin.
     std::vector<detail::BlockStats> blocks;
     std::vector<detail::RankedWord> words;   ///< Bitmap: 2 bits for each key there could be. All 0 between calls.
-    std::vector<std::uint64_t> occupied;     ///< Bitmap: a bit for 64 words; set if one of them is not 0.
+    std::vector<std::uint64_t> occupied;     ///< Bitmap: a bit for four words; set if one of them is not 0.
     std::vector<std::uint32_t> pages;        ///< Page table: 4 bytes for 64 keys there could be.
     std::vector<std::uint32_t> slots;        ///< Page table: 256 bytes for each page that holds a key.
     std::vector<detail::SortItem<K>> items;  ///< Local sort: a run's key and number.

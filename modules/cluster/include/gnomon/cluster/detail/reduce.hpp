@@ -22,21 +22,15 @@ inline void lower(std::int32_t& value, std::int32_t other) noexcept {
     while (other < now && !shared.compare_exchange_weak(now, other, std::memory_order_relaxed)) {}
 }
 
-/// The least places of three coordinates and of their negatives: a box of floats in their order, where both zeros are 0.
-struct PlaceBox {
-    std::int32_t least[6] = {last_place, last_place, last_place, last_place, last_place, last_place};
-
-    void add(math::vec3 const& p) noexcept {
-        std::int32_t const at[3] = {math::ordinal(p.x), math::ordinal(p.y), math::ordinal(p.z)};
-        for (std::size_t i = 0; i < 3; ++i) {
-            least[i] = std::min(least[i], at[i]);
-            least[i + 3] = std::min(least[i + 3], -at[i]);
-        }
+/// Lowers six shared places, of a box's lower ends and of its upper ends' negatives, in the order of floats: there both
+/// zeros are one.
+inline void lower_box(std::int32_t* shared, math::Aabb const& box) noexcept {
+    if (is_empty(box)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+        lower(shared[i], math::ordinal(box.lo[static_cast<math::axis_t>(i)]));
+        lower(shared[i + 3], -math::ordinal(box.hi[static_cast<math::axis_t>(i)]));
     }
-    void lower_into(std::int32_t* shared) const noexcept {
-        for (std::size_t i = 0; i < 6; ++i) lower(shared[i], least[i]);
-    }
-};
+}
 
 [[nodiscard]] inline math::Aabb box_of(std::int32_t const* places) noexcept {
     math::Aabb box;
@@ -69,17 +63,36 @@ template <core::Executor E, class F>
     return {not_finite.load(), outside.load()};
 }
 
-/// A float that is not above the cosine of the angle between two vectors of some length, in exact arithmetic.
-[[nodiscard]] inline float cosine_below(math::vec3 const& a, math::vec3 const& b) noexcept {
-    math::dvec3 const p = math::to_double(a);
-    math::dvec3 const q = math::to_double(b);
-    double const cosine = glm::dot(p, q) / std::sqrt(glm::dot(p, p) * glm::dot(q, q));
-    return float_below(cosine - 4e-15);
-}
+/// The least cosine of the angle between one vector and several, kept as the fraction of its square with its sign and
+/// the square of the vector's length: no root and no quotient but at the end.
+class LeastCosine {
+public:
+    explicit LeastCosine(math::vec3 const& axis) noexcept : axis_(math::to_double(axis)) {}
+
+    /// expects: a direction
+    void add(math::vec3 const& n) noexcept {
+        math::dvec3 const v = math::to_double(n);
+        double const dot = glm::dot(axis_, v);
+        double const square = dot * std::abs(dot);
+        double const length_sq = glm::dot(v, v);
+        bool const less = square * length_sq_ < square_ * length_sq;
+        square_ = less ? square : square_;
+        length_sq_ = less ? length_sq : length_sq_;
+    }
+    /// A float that is not above the least cosine, in exact arithmetic.
+    [[nodiscard]] float below() const noexcept {
+        double const cosine = std::sqrt(std::abs(square_) / (glm::dot(axis_, axis_) * length_sq_));
+        return float_below((square_ < 0.0 ? -cosine : cosine) - 4e-15);
+    }
+
+private:
+    math::dvec3 axis_;
+    double square_ = 1e300;  ///< Above any: squares of floats are below 1e78.
+    double length_sq_ = 1.0;
+};
 
 [[nodiscard]] inline bool has_direction(math::vec3 const& n) noexcept {
-    double const length_sq = glm::dot(math::to_double(n), math::to_double(n));
-    return math::is_finite(n) && length_sq > 0.0;
+    return math::is_finite(n) && (n.x != 0.0F || n.y != 0.0F || n.z != 0.0F);
 }
 
 /// The middle of a box of normals, of length 1; zero where there is none.
@@ -95,12 +108,12 @@ ReduceStats reduce_places(std::span<std::uint32_t const> index, std::span<math::
                           std::span<std::int32_t> places, E& executor, F const& is_usable) {
     return for_each_cluster_run(index, places.size() / 6, executor,
                                 [&](std::size_t begin, std::size_t end, std::uint32_t cluster, ReduceStats& stats) {
-                                    PlaceBox box;
+                                    math::Aabb box;
                                     for (std::size_t i = begin; i < end; ++i) {
-                                        if (is_usable(values[i])) box.add(values[i]);
+                                        if (is_usable(values[i])) box = math::extended(box, values[i]);
                                         else ++stats.not_finite;
                                     }
-                                    box.lower_into(places.data() + std::size_t{6} * cluster);
+                                    lower_box(places.data() + std::size_t{6} * cluster, box);
                                 });
 }
 
@@ -124,11 +137,12 @@ ReduceStats reduce_position_bits(std::span<std::uint32_t const> index, std::span
     std::fill(out.begin(), out.end(), 0U);
     return detail::for_each_cluster_run(
         index, out.size(), executor, [&](std::size_t begin, std::size_t end, std::uint32_t cluster, ReduceStats& stats) {
+            detail::BoxTenths const tenths(implicit[cluster]);
             PositionBits bits = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 bool const finite = math::is_finite(positions[i]);
                 bool const inside = finite && math::contains(implicit[cluster], positions[i]);
-                if (inside) bits |= position_bits(implicit[cluster], positions[i]);
+                if (inside) bits |= tenths.bits(positions[i]);
                 stats.not_finite += finite ? 0U : 1U;
                 stats.outside += finite && !inside ? 1U : 0U;
             }
@@ -149,14 +163,13 @@ ReduceStats explicit_cones(std::span<std::uint32_t const> index, std::span<math:
     }
     static_cast<void>(detail::for_each_cluster_run(
         index, out.size(), executor, [&](std::size_t begin, std::size_t end, std::uint32_t cluster, ReduceStats&) {
-            math::vec3 const axis = out[cluster].axis;
-            bool const usable = detail::has_direction(axis);
-            float least = no_sample;
-            for (std::size_t i = begin; i < end; ++i) {
-                bool const known = usable && detail::has_direction(normals[i]);
-                least = std::min(least, known ? detail::cosine_below(axis, normals[i]) : -1.0F);
+            detail::LeastCosine least(out[cluster].axis);
+            bool known = detail::has_direction(out[cluster].axis);
+            for (std::size_t i = begin; known && i < end; ++i) {
+                known = detail::has_direction(normals[i]);
+                if (known) least.add(normals[i]);
             }
-            detail::lower(work.places[cluster], math::ordinal(least));
+            detail::lower(work.places[cluster], math::ordinal(known ? least.below() : -1.0F));
         }));
     for (std::size_t c = 0; c < out.size(); ++c) {
         bool const usable = detail::has_direction(out[c].axis);
