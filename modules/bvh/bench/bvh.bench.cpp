@@ -92,7 +92,7 @@ BENCHMARK(refit)->ArgNames({"threads"})->Args({1})->Args({2})->Unit(benchmark::k
 /// Every item, W at a time, by the same child tests.
 template <class R>
 std::size_t all_of(bvh::SphereTree const& tree, R const& region) {
-    bvh::detail::ChildTests const touched{tree.view(), region};
+    auto const touched = bvh::detail::make_child_tests(tree.view(), region);
     std::size_t hits = 0;
     for (std::uint32_t node = 0; node < tree.layout.count[1]; ++node)
         hits += static_cast<std::size_t>(__builtin_popcount(touched(1, node)));

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 using namespace gnomon;
@@ -81,7 +82,8 @@ void check_region() {
         CHECK(found(spheres, region) == expected);
         auto const boxes = bvh::build_tree<W>(items_list::crates_of(balls).list());
         CHECK(found(boxes, region) == brute_force(boxes, region));
-        CHECK(found(boxes, BoxesOnly<R>{region}) == found(boxes, region));
+        BoxesOnly<R> const boxes_only{region};
+        CHECK(found(boxes, boxes_only) == brute_force(boxes, boxes_only));
         auto by_id = expected;
         std::sort(by_id.begin(), by_id.end());
         std::vector<std::uint32_t> out(balls.size());
@@ -102,6 +104,19 @@ TEST_CASE("a query finds what brute force finds, in tree order, whatever the reg
     check_region<bvh::ConeRegion, 32>();
 }
 
+TEST_CASE("what touches a box touches every box around it, rounding included", "[bvh][property]") {
+    check::for_all(check::cases(4000), math::boxes(), math::boxes(), [](check::Choices& choices) {
+        return std::tuple(Maker<bvh::SphereRegion>::make(choices), Maker<bvh::PlanesRegion>::make(choices),
+                          Maker<bvh::ConeRegion>::make(choices));
+    }, [](math::Aabb const& inner, math::Aabb const& other, auto const& regions) {
+        math::Aabb const outer = math::merged(inner, other);
+        auto const grown = [&](auto const& region) { return !region.may_touch(inner) || region.may_touch(outer); };
+        CHECK(grown(std::get<0>(regions)));
+        CHECK(grown(std::get<1>(regions)));
+        CHECK(grown(std::get<2>(regions)));
+    });
+}
+
 TEST_CASE("eight, four and one child at a time give the same bits", "[bvh]") {
     auto const tree = bvh::build_tree(items_list::cloud(3000).list());
     auto const view = tree.view();
@@ -118,7 +133,7 @@ TEST_CASE("eight, four and one child at a time give the same bits", "[bvh]") {
                 auto const one = bvh::detail::touched_children<float>(view, region, level, node);
                 auto const four = bvh::detail::touched_children<math::Lanes<float, 4>>(view, region, level, node);
                 auto const eight = bvh::detail::touched_children<math::Lanes<float, 8>>(view, region, level, node);
-                differ += one != four || one != eight || one != bvh::detail::ChildTests(view, region)(level, node) ? 1U : 0U;
+                differ += one != four || one != eight || one != bvh::detail::make_child_tests(view, region)(level, node) ? 1U : 0U;
                 some += one != 0 && one != ~0U ? 1U : 0U;
             }
     };

@@ -34,7 +34,7 @@ template <ItemList Items, std::uint32_t W, Region R, class F>
 QueryStats for_each_touched(TreeView<Items, W> const& tree, R const& region, F&& visit) {
     QueryStats stats;
     if (tree.layout.levels == 0) return stats;
-    detail::ChildTests<Items, W, R> const touched{tree, region};
+    auto const touched = detail::make_child_tests(tree, region);
     std::array<std::uint32_t, max_levels + 1> node{};
     std::array<std::uint32_t, max_levels + 1> left{};
     std::uint32_t level = tree.layout.levels;

@@ -21,9 +21,14 @@ template <class S, Region R>
 
 template <class S, ItemList Items, Region R>
 [[nodiscard, gnu::always_inline]] inline formula::Bool<S> asked_item(R const& region, ItemOf<S, Items::fields> const& item) noexcept {
-    auto const has_points = !gn_is_empty(Items::template box<S>(item));
-    if constexpr (LaneRegion<R>) return region.touches(Items::template shape<S>(item)) && has_points;
-    else return asked<S>(region, Items::template box<S>(item)) && has_points;
+    formula::GnBox<S> const box = Items::template box<S>(item);
+    formula::Bool<S> const touched = asked<S>(region, box) && !gn_is_empty(box);
+    if constexpr (LaneRegion<R>) {
+        if (!gn_any(touched)) return touched;
+        return touched && region.touches_item(Items::template shape<S>(item));
+    } else {
+        return touched;
+    }
 }
 
 /// Children of node `node` of `level` that `region` may touch; padding never is.
@@ -69,5 +74,10 @@ struct ChildTests {
         else return touched_children<PlainLanes>(tree, region, level, node);
     }
 };
+
+template <ItemList Items, std::uint32_t W, Region R>
+[[nodiscard]] ChildTests<Items, W, R> make_child_tests(TreeView<Items, W> const& tree, R const& region) noexcept {
+    return {tree, region};
+}
 
 }  // namespace gnomon::bvh::detail

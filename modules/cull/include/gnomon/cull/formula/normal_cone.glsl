@@ -36,7 +36,7 @@ GN_FN GN_BOOL gn_may_face(GN_IN(GN_TYPE(GnNormalCone)) cone, GN_IN(GN_TYPE(GnSph
     GN_PRECISE GN_FLOAT back = -(cone.sine * gn_sqrt(gn_max(long_sq, GN_FLOAT(0.0))) + cone.cosine * radius) - bound;
     GN_PRECISE GN_FLOAT narrow =
         cone.cosine * gn_sqrt(gn_max(short_sq, GN_FLOAT(0.0))) - (cone.sine * radius + bound);
-    GN_BOOL outside = short_sq > 0.0 && radius >= 0.0;
+    GN_BOOL outside = short_sq > 1e-30 && radius >= 0.0;  // nearer than 1e-15 m squares underflow
     return !(outside && cone.cosine > 0.0 && narrow > 0.0 && gn_dot3(v, cone.axis) < back);
 }
 

@@ -105,14 +105,18 @@ GN_FN GN_BOOL gn_may_be_inside(GN_FLOAT value, GN_FLOAT magnitude) {
     return !(value < bound);
 }
 
-/// Half-space and box, by the corner that lies farthest inside.
+/// Half-space and box, by the corner that lies farthest inside. The magnitude is of the corner that lies farthest out:
+/// so a larger box is never rejected where one inside it is not, rounding included.
 GN_FN GN_BOOL gn_touches_plane_box(GN_IN(GnPlane) plane, GN_IN(GN_TYPE(GnBox)) box) {
     GN_FLOAT x = plane.normal.x >= 0.0f ? box.hi.x : box.lo.x;
     GN_FLOAT y = plane.normal.y >= 0.0f ? box.hi.y : box.lo.y;
     GN_FLOAT z = plane.normal.z >= 0.0f ? box.hi.z : box.lo.z;
+    GN_FLOAT far_x = gn_max(abs(box.lo.x), abs(box.hi.x));
+    GN_FLOAT far_y = gn_max(abs(box.lo.y), abs(box.hi.y));
+    GN_FLOAT far_z = gn_max(abs(box.lo.z), abs(box.hi.z));
     GN_PRECISE GN_FLOAT value = (x * plane.normal.x + y * plane.normal.y) + (z * plane.normal.z + plane.offset);
-    GN_PRECISE GN_FLOAT magnitude = (abs(x) * plane.magnitude.x + abs(y) * plane.magnitude.y) +
-                                    (abs(z) * plane.magnitude.z + abs(plane.offset));
+    GN_PRECISE GN_FLOAT magnitude = (far_x * plane.magnitude.x + far_y * plane.magnitude.y) +
+                                    (far_z * plane.magnitude.z + abs(plane.offset));
     return gn_may_be_inside(value, magnitude);
 }
 
