@@ -82,6 +82,7 @@ TEST_CASE("a cone touches the spheres, boxes and half-spaces that hold one of it
             box.hi[k] = next_up(n[k] > 0.0 ? p + static_cast<float>(size) : p);
         }
         CHECK(may_touch(sector, box));
+        CHECK(may_touch(pyramid_of(sector), box));
         std::array const planes{Plane{n, -glm::dot(n, at.point) + slack + 1e-15 * glm::length(at.point)}};
         CHECK(may_touch(PlaneSet(planes), sector));
         formula::GnCrate<float> const crate{formula::Vec3<float>(c), {static_cast<float>(d), 0.0F, 0.0F}, {0.0F, static_cast<float>(d), 0.0F},
