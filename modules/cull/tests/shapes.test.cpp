@@ -346,6 +346,120 @@ Count count_cones(test::LightScene const& scene, std::size_t lights, int steps) 
 
 }  // namespace
 
+namespace {
+
+using Real3 = std::array<double, 3>;
+
+Real3 cross(Real3 const& a, Real3 const& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Whether two convex bodies of eight corners are apart along one of the directions that decide: normals and edge crosses.
+bool apart_along(std::array<Real3, 8> const& a, std::array<Real3, 8> const& b, Real3 const& n) {
+    double a_lo = 1e300, a_hi = -1e300, b_lo = 1e300, b_hi = -1e300;
+    for (std::size_t i = 0; i < 8; ++i) {
+        double const p = a[i][0] * n[0] + a[i][1] * n[1] + a[i][2] * n[2];
+        double const q = b[i][0] * n[0] + b[i][1] * n[1] + b[i][2] * n[2];
+        a_lo = std::fmin(a_lo, p);
+        a_hi = std::fmax(a_hi, p);
+        b_lo = std::fmin(b_lo, q);
+        b_hi = std::fmax(b_hi, q);
+    }
+    return a_hi < b_lo || b_hi < a_lo;
+}
+
+bool corners_touch(std::array<Real3, 8> const& a, std::array<Real3, 8> const& b) {
+    auto const edges = [](std::array<Real3, 8> const& c) {
+        std::array<Real3, 12> e{};
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t bit = 1; bit < 8; bit *= 2)
+                if ((i & bit) == 0) e[n++] = {c[i | bit][0] - c[i][0], c[i | bit][1] - c[i][1], c[i | bit][2] - c[i][2]};
+        return e;
+    };
+    auto const ea = edges(a);
+    auto const eb = edges(b);
+    for (auto const& list : {ea, eb})
+        for (std::size_t i = 0; i < 12; ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (apart_along(a, b, cross(list[i], list[j]))) return false;
+    for (auto const& x : ea)
+        for (auto const& y : eb)
+            if (apart_along(a, b, cross(x, y))) return false;
+    return true;
+}
+
+std::array<Real3, 8> corners_of(formula::GnCell<float> const& c) {
+    std::array<Real3, 8> p{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        auto const d = static_cast<double>((i & 4U) != 0 ? c.far.v : c.near.v);
+        p[i] = {static_cast<double>((i & 1U) != 0 ? c.right.v : c.left.v) * d, static_cast<double>((i & 2U) != 0 ? c.bottom.v : c.top.v) * d, d};
+    }
+    return p;
+}
+
+/// A box in a light's place, turned along its axis, as long as its range and a third and a fifth as wide.
+struct TurnedBox {
+    math::vec3 center;
+    std::array<math::vec3, 3> half;
+
+    explicit TurnedBox(test::SceneLight const& light) : center(light.center) {
+        math::dvec3 const z = glm::normalize(math::to_double(light.axis));
+        math::dvec3 const x = glm::normalize(glm::cross(z, std::abs(z.x) < 0.6 ? math::dvec3(1.0, 0.0, 0.0) : math::dvec3(0.0, 1.0, 0.0)));
+        auto const r = static_cast<double>(light.range);
+        half = {math::to_float(x * (r / 3)), math::to_float(glm::cross(z, x) * (r / 5)), math::to_float(z * r)};
+    }
+    [[nodiscard]] std::array<Real3, 8> corners() const {
+        std::array<Real3, 8> p{};
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                auto const a = static_cast<math::axis_t>(k);
+                p[i][k] = static_cast<double>(center[a]);
+                for (std::size_t h = 0; h < 3; ++h) p[i][k] += static_cast<double>(half[h][a]) * ((i >> h & 1U) != 0 ? 1.0 : -1.0);
+            }
+        return p;
+    }
+};
+
+Count count_crates(test::LightScene const& scene, std::size_t lights) {
+    return count_pairs(scene, lights, [](Count& count, cluster::GridView const& grid, test::SceneLight const& light, test::Cell c) {
+        TurnedBox const box(light);
+        cull::Cell const cell = cull::cell_of(grid, c.column, c.row, c.slice);
+        bool const may = cull::may_touch(cull::make_crate(box.center, box.half[0], box.half[1], box.half[2]), cell);
+        bool const near = cull::may_touch(math::Sphere{light.center, light.range * 1.2F}, cell);
+        bool const touches = near && corners_touch(box.corners(), corners_of(cell.borders));
+        count.add(touches ? test::Touch::yes : test::Touch::no, may);
+    });
+}
+
+/// Cones against the box around each cluster, as if it were the bounds of its samples.
+Count count_cones_and_boxes(test::LightScene const& scene, std::size_t lights) {
+    return count_pairs(scene, lights, [](Count& count, cluster::GridView const& grid, test::SceneLight const& light, test::Cell c) {
+        auto const corners = corners_of(cull::cell_of(grid, c.column, c.row, c.slice).borders);
+        math::Aabb box;
+        for (auto const& p : corners) box = math::extended(box, math::to_float(math::dvec3(p[0], p[1], p[2])));
+        math::Cone const cone{light.center, light.range, light.axis, light.half_angle_rad};
+        int budget = 20000;
+        math::dvec3 const lo = math::to_double(box.lo);
+        math::dvec3 const hi = math::to_double(box.hi);
+        count.add(test::ConeOracle(cone, false).touches({lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}, budget),
+                  math::may_touch(math::formula_sector(cone), box));
+    });
+}
+
+}  // namespace
+
+TEST_CASE("boxes of any orientation, and cones against boxes, are kept without need in few pairs", "[cull]") {
+    Count const crates = count_crates(test::light_scenes[0], 24);
+    CHECK(crates.missed == 0);
+    CHECK(crates.exact > 40);
+    CHECK(crates.surplus() < 0.1);
+    Count const cones = count_cones_and_boxes(test::light_scenes[2], 8);
+    CHECK(cones.missed == 0);
+    CHECK(cones.exact > 50);
+    CHECK(cones.surplus() < 0.15);
+}
+
 TEST_CASE("of the yardstick's pairs none is missed, and hardly one is kept without need", "[cull]") {
     Count const balls = count_balls(test::light_scenes[0], 64);
     CHECK(balls.exact == 259);
@@ -362,6 +476,13 @@ TEST_CASE("pairs of all of the yardstick's scenes", "[.full][cull]") {
         Count const balls = count_balls(scene, 256);
         CHECK(balls.missed == 0);
         std::printf("%-6s balls: %zu exact, %zu kept\n", scene.name, balls.exact, balls.kept);
+        Count const crates = count_crates(scene, 256);
+        CHECK(crates.missed == 0);
+        std::printf("%-6s turned boxes: %zu exact, %zu kept, %.1f %% too many\n", scene.name, crates.exact, crates.kept, 100.0 * crates.surplus());
+        Count const boxed = count_cones_and_boxes(scene, 64);
+        CHECK(boxed.missed == 0);
+        std::printf("%-6s cones and boxes, 64 lights: %zu exact, %zu kept, %.1f %% too many\n", scene.name, boxed.exact, boxed.kept,
+                    100.0 * boxed.surplus());
         for (int steps : {1, 2, 3, 5}) {
             Count const cones = count_cones(scene, 256, steps);
             CHECK(cones.missed == 0);
