@@ -1,4 +1,5 @@
 #include <gnomon/check/check.hpp>
+#include <gnomon/cluster/bounds.hpp>
 #include <gnomon/cluster/grid.hpp>
 #include <gnomon/math/generators.hpp>
 
@@ -119,6 +120,32 @@ TEST_CASE("a sample of any pixel lies in the hexahedron of its own key, with not
                             formula::Float<float>(at.depth_m)).v == cluster_at(c.grid, at.pixel, at.depth_m));
         CHECK(c.grid.view().index(key.column, key.row, key.slice) == cluster_at(c.grid, at.pixel, at.depth_m));
     });
+}
+
+TEST_CASE("keys and bounds agree for every depth within 64 floats of every plane", "[cluster]") {
+    math::PerspectiveConfig config;
+    config.size_px = {400, 300};
+    for (double const near_m : {0.1, 0.05, 1.0, 1e-3}) {
+        config.near_m = near_m;
+        auto const view = math::make_perspective(config).value();
+        auto const grid = cluster::make_grid(view, math::ivec2(32, 32), cluster::make_cubical_slices(view, 32, 5000.0 * near_m).value()).value();
+        auto const g = grid.view();
+        std::uint32_t wrong = 0;
+        for (float const plane : g.depth_m.first(g.slices())) {
+            float depth = plane;
+            for (int i = 0; i < 64; ++i) depth = math::next_down(depth);
+            for (int i = -64; i <= 64; ++i, depth = math::next_up(depth)) {
+                if (depth < g.depth_m[0]) continue;
+                math::uvec2 const pixel(static_cast<std::uint32_t>(200 + i), static_cast<std::uint32_t>(150 - i));
+                math::vec2 const centre(static_cast<float>(pixel.x) + 0.5F, static_cast<float>(pixel.y) + 0.5F);
+                auto const c = coordinates_at(grid, pixel, depth);
+                math::vec3 const p = position_at(grid, centre, depth);
+                wrong += contains(g, c, p) && contains(implicit_bounds(g, c), p) ? 0U : 1U;
+            }
+        }
+        CHECK(wrong == 0);
+        CHECK(g.slices() > 60);
+    }
 }
 
 TEST_CASE("a point on the border of a pixel is outside of its hexahedron by no more than the stated slack", "[cluster][property]") {

@@ -40,11 +40,12 @@ template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_page_table(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
                                  UniqueWorkspace<K>& work, E& executor = detail::serial);
 
-/// Sorts and compacts the runs of each block of samples, merges the blocks' lists, and links runs to the result.
+/// Compacts and sorts the runs of each block of samples, merges the blocks' lists, and links runs to the result.
 ///
 /// expects: as `unique_by_bitmap`, but for the layout, which may be any
-/// cost:    O(runs log(runs of a block) + keys log blocks); independent of the domain
-/// source:  [Olsson 2014, Paper II, 3.2, 4.2]; a tile is a block of consecutive samples here, of any image
+/// cost:    O(samples + keys of all blocks log(them)), for keys that a multiplication spreads; independent of the domain
+/// source:  [Olsson 2014, Paper II, 3.2, 4.2]; a tile is a block of consecutive samples here, of any
+///          image, and is compacted by a hash table before it is sorted
 template <Key K, core::Executor E = core::SerialExecutor const>
 UniqueStats unique_by_local_sort(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
                                  UniqueWorkspace<K>& work, E& executor = detail::serial);

@@ -19,16 +19,6 @@ struct List {
     std::size_t end = 0;
 };
 
-template <Key K>
-struct SortItem {
-    K key;
-    std::uint32_t run;
-
-    friend constexpr bool operator<(SortItem const& a, SortItem const& b) noexcept {
-        return a.key != b.key ? a.key < b.key : a.run < b.run;
-    }
-};
-
 /// Makes a vector at least so large.
 template <class T>
 void grow(std::vector<T>& v, std::size_t size) {
@@ -64,7 +54,7 @@ struct UniqueWorkspace {
     std::vector<std::uint64_t> occupied;     ///< Bitmap: a bit for four words; set if one of them is not 0.
     std::vector<std::uint32_t> pages;        ///< Page table: 4 bytes for 64 keys there could be.
     std::vector<std::uint32_t> slots;        ///< Page table: 256 bytes for each page that holds a key.
-    std::vector<detail::SortItem<K>> items;  ///< Local sort: a run's key and number.
+    std::vector<std::uint32_t> memory;       ///< Local sort: of blocks, 8 bytes a sample, then their keys' places.
     std::vector<K> sorted;                   ///< Local sort: each block's keys.
     std::vector<K> merged[2];                ///< Local sort: the blocks' lists merged, from one to the other.
     std::vector<detail::List> lists;

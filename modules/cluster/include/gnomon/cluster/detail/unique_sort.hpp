@@ -5,27 +5,59 @@
 #include <gnomon/cluster/unique.hpp>
 
 #include <algorithm>
+#include <bit>
 
 namespace gnomon::cluster {
 
 namespace detail {
 
-/// Sorts a block's runs, writes its keys to `out` and each run's place among them to the run.
+[[nodiscard]] inline std::uint32_t hash_of(std::uint32_t key) noexcept { return key * 0x9E3779B1U >> 16U; }
+[[nodiscard]] inline std::uint32_t hash_of(std::uint64_t key) noexcept {
+    return static_cast<std::uint32_t>(key * 0x9E3779B97F4A7C15ULL >> 48U);
+}
+
+/// Gives each of a block's runs the place of its key in `found`, which has the keys in the order they first come.
 ///
-/// expects: room for a key and an item a run
+/// expects: a table of 2^n places, twice as many as there are runs, or more; room for a key a run
 /// returns: how many keys
 template <Key K>
-[[nodiscard]] std::uint32_t sort_block(std::span<K const> keys, Runs const& runs, SortItem<K>* items, K* out) {
-    std::size_t count = 0;
-    for (std::size_t r = 0; r < runs.count; ++r)
-        if (runs.number[r] != no_cluster) items[count++] = {keys[runs.start[r]], static_cast<std::uint32_t>(r)};
-    std::sort(items, items + count);
-    std::uint32_t unique = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i == 0 || items[i].key != items[i - 1].key) out[unique++] = items[i].key;
-        runs.number[items[i].run] = unique - 1;
+[[nodiscard]] std::uint32_t collect_keys(std::span<K const> keys, Runs const& runs, std::span<std::uint32_t> table, K* found) {
+    std::fill(table.begin(), table.end(), no_cluster);
+    std::uint32_t count = 0;
+    for (std::size_t r = 0; r < runs.count; ++r) {
+        if (runs.number[r] == no_cluster) continue;
+        K const key = keys[runs.start[r]];
+        std::size_t at = hash_of(key) & (table.size() - 1);
+        while (table[at] != no_cluster && found[table[at]] != key) at = (at + 1) & (table.size() - 1);
+        if (table[at] == no_cluster) {
+            found[count] = key;
+            table[at] = count++;
+        }
+        runs.number[r] = table[at];
     }
-    return unique;
+    return count;
+}
+
+/// Sorts the keys of a block's runs to `sorted`, and gives each run its key's place there. Runs are compacted before
+/// their keys are sorted: the same tile comes again in each row of pixels.
+///
+/// expects: memory of 2 block_samples words, and of a key a run
+/// returns: how many keys
+template <Key K>
+[[nodiscard]] std::uint32_t sort_block(std::span<K const> keys, Runs const& runs, std::uint32_t* memory, K* found, K* sorted) {
+    std::size_t const places = std::bit_ceil(2 * std::max(runs.count, std::size_t{1}));
+    std::uint32_t const count = collect_keys(keys, runs, {memory, places}, found);
+    std::uint32_t* const order = memory;  // the table is no longer needed
+    std::uint32_t* const place = memory + count;
+    for (std::uint32_t i = 0; i < count; ++i) order[i] = i;
+    std::sort(order, order + count, [&](std::uint32_t a, std::uint32_t b) { return found[a] < found[b]; });
+    for (std::uint32_t i = 0; i < count; ++i) {
+        place[order[i]] = i;
+        sorted[i] = found[order[i]];
+    }
+    for (std::size_t r = 0; r < runs.count; ++r)
+        if (runs.number[r] != no_cluster) runs.number[r] = place[runs.number[r]];
+    return count;
 }
 
 /// Merges each two neighbouring lists to where the first one stands, and drops what both have. What is dropped leaves
@@ -85,25 +117,26 @@ template <Key K, core::Executor E>
 UniqueStats unique_by_local_sort(KeyLayout<K> const& layout, std::span<K const> keys, UniqueOut<K> const& out,
                                  UniqueWorkspace<K>& work, E& executor) {
     GNOMON_EXPECT(out.index.size() == keys.size() && keys.size() < no_cluster);
-    detail::grow(work.items, keys.size());
+    detail::grow(work.memory, 2 * detail::block_samples * detail::block_count(keys.size()));
     for (std::vector<K>* const buffer : {&work.sorted, &work.merged[0], &work.merged[1]}) detail::grow(*buffer, keys.size());
     UniqueStats stats = detail::prepare_runs(layout, keys, work, executor, [&](std::size_t b, detail::Runs const& runs) {
         std::size_t const begin = b * detail::block_samples;
-        work.blocks[b].keys = detail::sort_block(keys, runs, work.items.data() + begin, work.sorted.data() + begin);
+        work.blocks[b].keys = detail::sort_block(keys, runs, work.memory.data() + 2 * begin, work.merged[0].data() + begin,
+                                                 work.sorted.data() + begin);
     });
     std::span<K const> const all = detail::merge_blocks(detail::block_count(keys.size()), work, executor);
     stats.clusters = all.size();
     std::copy_n(all.begin(), std::min(all.size(), out.keys.size()), out.keys.begin());
     detail::link_samples(out.index, work, executor, [&](auto, std::size_t b, detail::Runs const& runs) {
-        // The items are free again: each now takes the place of one of the block's keys among all.
-        detail::SortItem<K>* const places = work.items.data() + b * detail::block_samples;
+        // The block's memory is free again: it now takes the place of each of the block's keys among all.
+        std::uint32_t* const places = work.memory.data() + 2 * b * detail::block_samples;
         std::size_t place = 0;
         for (std::uint32_t i = 0; i < work.blocks[b].keys; ++i) {
             place = detail::place_after(all, place, work.sorted[b * detail::block_samples + i]);
-            places[i].run = static_cast<std::uint32_t>(place);
+            places[i] = static_cast<std::uint32_t>(place);
         }
         for (std::size_t r = 0; r < runs.count; ++r)
-            if (runs.number[r] != no_cluster) runs.number[r] = places[runs.number[r]].run;
+            if (runs.number[r] != no_cluster) runs.number[r] = places[runs.number[r]];
     });
     return stats;
 }
