@@ -14,6 +14,11 @@ namespace {
 using namespace gnomon;
 using cluster::no_cluster;
 
+core::SerialExecutor const reduce_serial;
+core::ThreadExecutor const reduce_threads(3);
+core::ExecutorRef const one_thread(reduce_serial);  // by reference: each reduction is compiled once
+core::ExecutorRef const three_threads(reduce_threads);
+
 struct ReduceCase {
     std::vector<std::uint32_t> index;
     std::vector<math::vec3> values;
@@ -53,16 +58,14 @@ auto reduce_cases(int most) {
     };
 }
 
-template <class E>
-std::vector<math::Aabb> boxes_by(ReduceCase const& c, E const& executor, cluster::ReduceStats& stats) {
+std::vector<math::Aabb> boxes_by(ReduceCase const& c, core::ExecutorRef const& executor, cluster::ReduceStats& stats) {
     std::vector<math::Aabb> boxes(c.clusters);
     cluster::ReduceWorkspace work;
     stats = cluster::explicit_bounds(c.index, c.values, boxes, work, executor);
     return boxes;
 }
 
-template <class E>
-std::vector<cluster::NormalCone> cones_by(ReduceCase const& c, E const& executor, cluster::ReduceStats& stats) {
+std::vector<cluster::NormalCone> cones_by(ReduceCase const& c, core::ExecutorRef const& executor, cluster::ReduceStats& stats) {
     std::vector<cluster::NormalCone> cones(c.clusters);
     cluster::ReduceWorkspace work;
     stats = cluster::explicit_cones(c.index, c.values, cones, work, executor);
@@ -74,7 +77,7 @@ std::vector<cluster::NormalCone> cones_by(ReduceCase const& c, E const& executor
 TEST_CASE("explicit boxes are the samples' own, for any executor, and what is left out is counted", "[cluster][property]") {
     auto const check_case = [](ReduceCase const& c) {
         cluster::ReduceStats stats;
-        auto const boxes = boxes_by(c, core::SerialExecutor{}, stats);
+        auto const boxes = boxes_by(c, one_thread, stats);
         std::vector<math::Aabb> expected(c.clusters);
         cluster::ReduceStats left_out;
         for (std::size_t i = 0; i < c.index.size(); ++i) {
@@ -88,7 +91,7 @@ TEST_CASE("explicit boxes are the samples' own, for any executor, and what is le
         for (math::Aabb const& box : boxes) CHECK_FALSE((box.lo.x == 0.0F && std::signbit(box.lo.x)));
         if (c.index.size() < 20000) return;
         cluster::ReduceStats by_threads;
-        CHECK(boxes_by(c, core::ThreadExecutor{3}, by_threads) == boxes);
+        CHECK(boxes_by(c, three_threads, by_threads) == boxes);
         CHECK(by_threads == stats);
     };
     check::for_all(check::cases(300), reduce_cases(400), check_case);
@@ -105,7 +108,7 @@ TEST_CASE("an explicit cone holds the normals it was made of, for any executor, 
     };
     auto const check_case = [&](ReduceCase const& c) {
         cluster::ReduceStats stats;
-        auto const cones = cones_by(c, core::SerialExecutor{}, stats);
+        auto const cones = cones_by(c, one_thread, stats);
         std::vector<long double> least(c.clusters, 2.0L);
         std::vector<bool> unknown(c.clusters, false);
         for (std::size_t i = 0; i < c.index.size(); ++i) {
@@ -125,7 +128,7 @@ TEST_CASE("an explicit cone holds the normals it was made of, for any executor, 
         }
         if (c.index.size() < 20000) return;
         cluster::ReduceStats by_threads;
-        CHECK(cones_by(c, core::ThreadExecutor{3}, by_threads) == cones);
+        CHECK(cones_by(c, three_threads, by_threads) == cones);
         CHECK(by_threads == stats);
     };
     check::for_all(check::cases(300), reduce_cases(400), check_case);
@@ -138,7 +141,7 @@ TEST_CASE("cones of no, of opposite and of unknown normals are defined", "[clust
     c.index = {1, 1, 2, 3, 3};
     c.values = {math::vec3(0, 1, 0), math::vec3(0, -1, 0), math::vec3(0.0F), math::vec3(3, 0, 0), math::vec3(0, 3, 0)};
     cluster::ReduceStats stats;
-    auto const cones = cones_by(c, core::SerialExecutor{}, stats);
+    auto const cones = cones_by(c, one_thread, stats);
     CHECK(cones[0].cos_half == 2.0F);
     CHECK(cones[1].cos_half == -1.0F);
     CHECK(cones[2].cos_half == -1.0F);
@@ -151,7 +154,7 @@ TEST_CASE("reduced position bits are each sample's together, and samples outside
         math::Aabb const box{math::vec3(-0.9F, -1.0F, -2.0F), math::vec3(1.0F, 1.0F, 2.0F)};
         std::vector<math::Aabb> const implicit(c.clusters, box);
         std::vector<cluster::PositionBits> bits(c.clusters, 7);
-        auto const stats = cluster::reduce_position_bits(c.index, c.values, implicit, bits);
+        auto const stats = cluster::reduce_position_bits(c.index, c.values, implicit, bits, one_thread);
         std::vector<cluster::PositionBits> expected(c.clusters, 0);
         std::size_t outside = 0;
         for (std::size_t i = 0; i < c.index.size(); ++i) {
@@ -166,8 +169,7 @@ TEST_CASE("reduced position bits are each sample's together, and samples outside
         CHECK(bits == expected);
         CHECK(stats.outside == outside);
         std::vector<cluster::PositionBits> by_threads(c.clusters);
-        core::ThreadExecutor const threads(3);
-        CHECK(cluster::reduce_position_bits(c.index, c.values, implicit, by_threads, threads) == stats);
+        CHECK(cluster::reduce_position_bits(c.index, c.values, implicit, by_threads, three_threads) == stats);
         CHECK(by_threads == bits);
     });
 }
@@ -180,8 +182,8 @@ TEST_CASE("reductions allocate nothing once the workspace has grown", "[cluster]
     std::vector<cluster::NormalCone> cones(100);
     cluster::ReduceWorkspace work;
     auto const run = [&] {
-        auto const a = cluster::explicit_bounds(index, values, boxes, work);
-        auto const b = cluster::explicit_cones(index, values, cones, work);
+        auto const a = cluster::explicit_bounds(index, values, boxes, work, one_thread);
+        auto const b = cluster::explicit_cones(index, values, cones, work, one_thread);
         return a.outside + b.outside;
     };
     std::size_t const first = run();

@@ -55,8 +55,9 @@ UniqueResult<K> unique_by_std(UniqueCase<K> const& c, std::size_t room) {
 
 enum class Method { bitmap, page_table, local_sort };
 
-template <cluster::Key K, class E>
-UniqueResult<K> unique_by(Method method, UniqueCase<K> const& c, std::size_t room, cluster::UniqueWorkspace<K>& work, E const& executor) {
+/// Any executor by reference: each method is compiled once.
+template <cluster::Key K>
+UniqueResult<K> unique_by(Method method, UniqueCase<K> const& c, std::size_t room, cluster::UniqueWorkspace<K>& work, core::ExecutorRef const& executor) {
     UniqueResult<K> r;
     r.keys.resize(room);
     r.index.assign(c.keys.size(), 12345);
@@ -100,12 +101,14 @@ auto unique_cases(int most) {
 
 template <cluster::Key K>
 void check_all_methods(UniqueCase<K> const& c) {
+    core::SerialExecutor const serial;
+    core::ThreadExecutor const threads(3);
     static cluster::UniqueWorkspace<K> work;  // of the test: what earlier cases left must not matter
     for (std::size_t const room : {c.keys.size(), std::size_t{0}, c.keys.size() / 50}) {
         auto const expected = unique_by_std(c, room);
         for (Method const method : {Method::bitmap, Method::page_table, Method::local_sort}) {
-            CHECK((unique_by(method, c, room, work, core::SerialExecutor{}) == expected));
-            if (c.keys.size() > 20000) CHECK((unique_by(method, c, room, work, core::ThreadExecutor{3}) == expected));
+            CHECK((unique_by(method, c, room, work, core::ExecutorRef(serial)) == expected));
+            if (c.keys.size() > 20000) CHECK((unique_by(method, c, room, work, core::ExecutorRef(threads)) == expected));
         }
     }
 }
@@ -156,7 +159,8 @@ TEST_CASE("a layout too large for any table is left to the local sort", "[cluste
     c.keys.push_back(cluster::pack_key<std::uint64_t>({65535, 65535, 65535, 64895}));
     c.keys.insert(c.keys.end(), c.keys.begin(), c.keys.begin() + 20000);
     cluster::UniqueWorkspace<std::uint64_t> work;
-    CHECK((unique_by(Method::local_sort, c, c.keys.size(), work, core::SerialExecutor{}) == unique_by_std(c, c.keys.size())));
+    core::SerialExecutor const serial;
+    CHECK((unique_by(Method::local_sort, c, c.keys.size(), work, core::ExecutorRef(serial)) == unique_by_std(c, c.keys.size())));
 }
 
 TEST_CASE("unique clusters are found without allocating once the workspace has grown", "[cluster]") {
@@ -168,10 +172,12 @@ TEST_CASE("unique clusters are found without allocating once the workspace has g
     std::vector<std::uint32_t> index(c.keys.size());
     cluster::UniqueOut<std::uint32_t> const out{keys, index};
     std::span<std::uint32_t const> const in(c.keys);
+    core::SerialExecutor const serial;
+    core::ExecutorRef const executor(serial);
     auto const run = [&] {
-        std::size_t const a = unique_by_bitmap(c.layout, in, out, work).clusters;
-        std::size_t const b = unique_by_page_table(c.layout, in, out, work).clusters;
-        return a + b + unique_by_local_sort(c.layout, in, out, work).clusters;
+        std::size_t const a = unique_by_bitmap(c.layout, in, out, work, executor).clusters;
+        std::size_t const b = unique_by_page_table(c.layout, in, out, work, executor).clusters;
+        return a + b + unique_by_local_sort(c.layout, in, out, work, executor).clusters;
     };
     std::size_t const first = run();
     std::uint64_t const before = check::allocations_made();
