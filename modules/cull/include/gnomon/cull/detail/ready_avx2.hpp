@@ -23,13 +23,17 @@ struct Border8 {
     F8 y, secant, cosine;
 };
 
+struct Range8 {
+    I8 first, last;
+};
+
 /// GnReadyBall, and the ball's reach in the grid: counts from the first slice, row, column to the last, both included.
 struct Ready8 {
     F8 x, y, depth, radius, radius_sq, tangent;
     Arc8 cap;
     F8 cap_low_scale, cap_high_scale;
     Span8 x_bounds, y_bounds;
-    I8 slice_first, slice_last, row_first, row_last, column_first, column_last;
+    Range8 slices, rows, columns;
     F8 reaches;  ///< mask: the reach is not empty
 };
 
@@ -83,6 +87,7 @@ GNOMON_ROWS_INLINE void make_ready(F8 x, F8 y, F8 depth, F8 given, Ready8& r) no
 GNOMON_ROWS_INLINE void find_slices(RowGrid const& g, Ready8& r) noexcept {
     I8 missed = all(0), crossing = all(0), before = all(0);
     float const* const planes = g.depth_m.data();
+#pragma GCC unroll 4
     for (std::uint32_t k = 0; k <= g.slices; ++k) {
         F8 const at = spread(planes + k);
         F8 const off = at - r.depth;
@@ -95,8 +100,8 @@ GNOMON_ROWS_INLINE void find_slices(RowGrid const& g, Ready8& r) noexcept {
     F8 const any = crossing > all(0);
     I8 const first_if = greatest(missed - one, all(0)), last_if = least(missed + crossing - one, last);
     I8 const only = before - one;
-    r.slice_first = {_mm256_blendv_epi8(only.v, first_if.v, _mm256_castps_si256(any.v))};
-    r.slice_last = {_mm256_blendv_epi8(only.v, last_if.v, _mm256_castps_si256(any.v))};
+    r.slices.first = {_mm256_blendv_epi8(only.v, first_if.v, _mm256_castps_si256(any.v))};
+    r.slices.last = {_mm256_blendv_epi8(only.v, last_if.v, _mm256_castps_si256(any.v))};
     F8 const inside = and_not(before > all(0), only > last);
     r.reaches = any | inside;
 }
@@ -109,13 +114,22 @@ GNOMON_ROWS_INLINE I8 count_below(float const* from, std::uint32_t count, F8 x) 
     return n;
 }
 
+/// Which of `count` intervals with ascending ends `bounds` touches: the first and the last.
+GNOMON_ROWS_INLINE void find_range(float const* starts, float const* ends, std::uint32_t count, Span8 bounds, Range8& found) noexcept {
+    I8 before = all(0), within = all(-1);
+#pragma GCC unroll 4
+    for (std::uint32_t i = 0; i < count; ++i) {
+        before = before - minus_one_where(spread(ends + i) < bounds.low);
+        within = within - minus_one_where(spread(starts + i) <= bounds.high);
+    }
+    found = {before, within};
+}
+
 GNOMON_ROWS_INLINE void find_reach(RowGrid const& g, Ready8& r) noexcept {
     find_slices(g, r);
-    r.row_first = count_below<false>(g.y.data() + 1, g.rows, r.y_bounds.low);
-    r.row_last = count_below<true>(g.y.data(), g.rows, r.y_bounds.high) - all(1);
-    r.column_first = count_below<false>(g.right.data(), g.columns, r.x_bounds.low);
-    r.column_last = count_below<true>(g.left.data(), g.columns, r.x_bounds.high) - all(1);
-    r.reaches = and_not(r.reaches, (r.row_first > r.row_last) | (r.column_first > r.column_last));
+    find_range(g.y.data(), g.y.data() + 1, g.rows, r.y_bounds, r.rows);
+    find_range(g.left.data(), g.right.data(), g.columns, r.x_bounds, r.columns);
+    r.reaches = and_not(r.reaches, (r.rows.first > r.rows.last) | (r.columns.first > r.columns.last));
 }
 
 }  // namespace gnomon::cull::detail

@@ -28,7 +28,7 @@ GNOMON_ROWS_INLINE void make_sides(RowGrid const& g, Ready8 const& b, Spots8 con
         }
     }
     for (int k = 0; k < slices; ++k)
-        sides[k].inverse = gather(g.inverse.data(), least(b.slice_first + all(k), all(static_cast<std::int32_t>(g.slices))));
+        sides[k].inverse = gather(g.inverse.data(), least(b.slices.first + all(k), all(static_cast<std::int32_t>(g.slices))));
 }
 
 /// One spot of eight: what `side_cut` needs with a direction a lane, and its silhouettes in every lane.
@@ -63,7 +63,7 @@ GNOMON_ROWS_INLINE void pick(Ready8 const& b, Spots8 const& from, std::uint32_t 
 /// and row counted from each ball's first. All of them must be small.
 template <bool perspective, bool with_spots, class Sink>
 GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, Spots8 const& spots, F8 lanes, Sink& sink) noexcept {
-    I8 const rows = b.row_last - b.row_first, slices = b.slice_last - b.slice_first;
+    I8 const rows = b.rows.last - b.rows.first, slices = b.slices.last - b.slices.first;
     int slice_count = 1, row_count = 1;
     while (slice_count < small_slices && bits_of((slices > all(slice_count - 1)) & lanes) != 0) ++slice_count;
     while (row_count < small_rows && bits_of((rows > all(row_count - 1)) & lanes) != 0) ++row_count;
@@ -71,14 +71,14 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, Spots8 co
     Cut8 cut[small_slices + 1];
     Cap8 cap[small_slices];
     Span8 above[small_slices];
-    for (int k = 0; k <= slice_count; ++k) gather_cut(g, b, b.slice_first + all(k), lanes, cut[k]);
+    for (int k = 0; k <= slice_count; ++k) gather_cut(g, b, b.slices.first + all(k), lanes, cut[k]);
     for (int k = 0; k < slice_count; ++k) cap[k] = slice_cap(b, cut[k], cut[k + 1]);
     Sides8 sides[small_slices];
     if constexpr (with_spots) make_sides<perspective>(g, b, spots, cut, slice_count, sides);
 
     F8 y = all(0.0F);
     for (int j = 0; j <= row_count; ++j) {
-        I8 const at = least(b.row_first + all(j), all(static_cast<std::int32_t>(g.rows)));
+        I8 const at = least(b.rows.first + all(j), all(static_cast<std::int32_t>(g.rows)));
         F8 const next_y = gather(g.y.data(), at);
         Arc8 const arc = border_arc<perspective>(b, {next_y, gather(g.secant.data(), at), gather(g.cosine.data(), at)});
         F8 const in_rows = and_not(lanes, all(j - 1) > rows);
@@ -118,8 +118,8 @@ GNOMON_ROWS_INLINE void visit_large(RowGrid const& g, Ready8 const& eight, Spots
     OneSpot spot;
     pick(eight, lane, b);
     if constexpr (is_spot) pick(eight, spots, lane, spot);
-    std::uint32_t const first = pick(eight.row_first, lane), last = pick(eight.row_last, lane);
-    std::uint32_t const slice_first = pick(eight.slice_first, lane), slice_last = pick(eight.slice_last, lane);
+    std::uint32_t const first = pick(eight.rows.first, lane), last = pick(eight.rows.last, lane);
+    std::uint32_t const slice_first = pick(eight.slices.first, lane), slice_last = pick(eight.slices.last, lane);
     for (std::uint32_t j = first; j <= last; j += 7) {
         std::uint32_t const rows = last - j + 1 < 7 ? last - j + 1 : 7;
         F8 const y = load(g.y.data() + j), next_y = load(g.y.data() + j + 1);
@@ -190,8 +190,8 @@ GNOMON_ROWS_INLINE void visit_all(RowGrid const& g, Input const& in, std::size_t
         make_ready<perspective>(load(in.x + n), load(in.y + n), load(in.depth + n), load(in.radius + n), b);
         find_spots<perspective>(g, in, n, b, spots);
         std::uint32_t const there = count - n < 8 ? (1U << (count - n)) - 1U : 255U;
-        F8 const big = (b.row_last - b.row_first > all(small_rows - 1)) | (b.slice_last - b.slice_first > all(small_slices - 1)) |
-                       (b.column_last - b.column_first > all(small_columns - 1));
+        F8 const big = (b.rows.last - b.rows.first > all(small_rows - 1)) | (b.slices.last - b.slices.first > all(small_slices - 1)) |
+                       (b.columns.last - b.columns.first > all(small_columns - 1));
         std::uint32_t const some = bits_of(b.reaches) & there, cones = bits_of(spots.there);
         if (some == 0) continue;
         sink.eight(n, b);

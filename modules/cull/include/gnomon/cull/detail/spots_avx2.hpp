@@ -139,11 +139,11 @@ GNOMON_ROWS_INLINE void make_spots(Ready8& b, Spots8& c) noexcept {
 
 /// gn_in_depth: cuts the reach of the spots.
 GNOMON_ROWS_INLINE void cut_slices(RowGrid const& g, Spots8 const& c, Ready8& b) noexcept {
-    I8 const first = greatest(b.slice_first, count_below<false>(g.depth_m.data() + 1, g.slices, c.depth.low));
-    I8 const last = least(b.slice_last, count_below<true>(g.depth_m.data(), g.slices, c.depth.high) - all(1));
-    b.slice_first = {_mm256_blendv_epi8(b.slice_first.v, first.v, _mm256_castps_si256(c.there.v))};
-    b.slice_last = {_mm256_blendv_epi8(b.slice_last.v, last.v, _mm256_castps_si256(c.there.v))};
-    b.reaches = and_not(b.reaches, b.slice_first > b.slice_last);
+    I8 const first = greatest(b.slices.first, count_below<false>(g.depth_m.data() + 1, g.slices, c.depth.low));
+    I8 const last = least(b.slices.last, count_below<true>(g.depth_m.data(), g.slices, c.depth.high) - all(1));
+    b.slices.first = {_mm256_blendv_epi8(b.slices.first.v, first.v, _mm256_castps_si256(c.there.v))};
+    b.slices.last = {_mm256_blendv_epi8(b.slices.last.v, last.v, _mm256_castps_si256(c.there.v))};
+    b.reaches = and_not(b.reaches, b.slices.first > b.slices.last);
 }
 
 /// What `end_on` needs of a spot. Lanes: eight lights, or four directions of one.

@@ -43,9 +43,9 @@ struct RunSink8 {
     std::uint32_t from = 0, past = 0, light = 0;
 
     GNOMON_ROWS_INLINE void eight(std::size_t n, cull::detail::Ready8 const& b) noexcept {
-        cull::detail::I8 const rows = b.slice_first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.row_first;
-        cull::detail::store(origin, rows * cull::detail::all(static_cast<std::int32_t>(grid.columns)) + b.column_first);
-        cull::detail::store(reinterpret_cast<std::int32_t*>(first), b.column_first);
+        cull::detail::I8 const rows = b.slices.first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.rows.first;
+        cull::detail::store(origin, rows * cull::detail::all(static_cast<std::int32_t>(grid.columns)) + b.columns.first);
+        cull::detail::store(reinterpret_cast<std::int32_t*>(first), b.columns.first);
         for (std::uint32_t& c : counts) c = 0;
         index = work.index.data() + n;
         flushed = 0;
@@ -74,8 +74,8 @@ struct RunSink8 {
     GNOMON_ROWS_INLINE void large(std::uint32_t lane, cull::detail::Ready8 const& b) {
         flush(lane);
         reserve(std::size_t{8 * most} + std::size_t{grid.rows} * grid.slices);
-        from = cull::detail::pick(b.column_first, lane);
-        past = cull::detail::pick(b.column_last, lane) + 1;
+        from = cull::detail::pick(b.columns.first, lane);
+        past = cull::detail::pick(b.columns.last, lane) + 1;
         light = index[lane];
     }
     GNOMON_ROWS_INLINE void large_row(std::uint32_t slice, std::uint32_t row, float low, float high) noexcept {

@@ -52,9 +52,9 @@ struct PlaneSink8 {
 
     GNOMON_ROWS_INLINE void eight(std::size_t n, cull::detail::Ready8 const& b) noexcept {
         alignas(32) std::int32_t word[8];
-        cull::detail::I8 const rows = b.slice_first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.row_first;
-        cull::detail::store(word, rows * cull::detail::all(static_cast<std::int32_t>(grid.columns)) + b.column_first);
-        cull::detail::store(reinterpret_cast<std::int32_t*>(first), b.column_first);
+        cull::detail::I8 const rows = b.slices.first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.rows.first;
+        cull::detail::store(word, rows * cull::detail::all(static_cast<std::int32_t>(grid.columns)) + b.columns.first);
+        cull::detail::store(reinterpret_cast<std::int32_t*>(first), b.columns.first);
         for (std::uint32_t lane = 0; lane < 8; ++lane) {
             std::uint32_t const light = index[n + lane];
             origin[lane] = to.words + light / 32 * to.stride + word[lane];
@@ -75,9 +75,9 @@ struct PlaneSink8 {
     }
     GNOMON_ROWS_INLINE void large(std::uint32_t lane, cull::detail::Ready8 const& b) noexcept {
         bit = bits[lane];
-        from = cull::detail::pick(b.column_first, lane);
-        past = cull::detail::pick(b.column_last, lane) + 1;
-        plane = origin[lane] - (std::size_t{cull::detail::pick(b.slice_first, lane)} * grid.rows + cull::detail::pick(b.row_first, lane)) * grid.columns - from;
+        from = cull::detail::pick(b.columns.first, lane);
+        past = cull::detail::pick(b.columns.last, lane) + 1;
+        plane = origin[lane] - (std::size_t{cull::detail::pick(b.slices.first, lane)} * grid.rows + cull::detail::pick(b.rows.first, lane)) * grid.columns - from;
     }
     GNOMON_ROWS_INLINE void large_row(std::uint32_t slice, std::uint32_t row, float low, float high) const noexcept {
         std::uint32_t* const at = plane + std::size_t{slice * grid.rows + row} * grid.columns;
