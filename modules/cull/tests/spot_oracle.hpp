@@ -55,13 +55,22 @@ inline Solid solid_of_spot(math::vec3 const& center, float range, math::vec3 con
     return s;
 }
 
-/// The corners of a cluster; open borders end at `open` (a smaller cluster: what touches it touches the true one).
-inline Solid solid_of_cell(cluster::GridView const& g, Cell c, double open) {
+/// The ends of an interval; an open one ends a good way off the other.
+inline std::array<double, 2> ends_of(float low, float high) {
+    std::array<double, 2> e{static_cast<double>(low), static_cast<double>(high)};
+    if (!std::isfinite(low)) e[0] = std::isfinite(high) ? e[1] - 2 * std::abs(e[1]) - 10 : -10;
+    if (!std::isfinite(high)) e[1] = e[0] + 2 * std::abs(e[0]) + 10;
+    return e;
+}
+
+/// The corners of a cluster; an open one is cut off (a smaller cluster: what touches it touches the true one).
+inline Solid solid_of_cell(cluster::GridView const& g, Cell c) {
     Solid s;
-    auto const at = [&](float v) { return std::isfinite(v) ? static_cast<double>(v) : v < 0 ? -open : open; };
+    auto const x = ends_of(g.x[c.column], g.x[c.column + 1]), y = ends_of(g.y[c.row], g.y[c.row + 1]);
+    auto const depth = ends_of(g.depth_m[c.slice], g.depth_m[c.slice + 1]);
     for (unsigned i = 0; i < 8; ++i) {
-        double const d = at(g.depth_m[c.slice + (i & 1U)]), f = g.perspective ? d : 1.0;
-        s.hull.push_back({at(g.x[c.column + (i >> 1U & 1U)]) * f, at(g.y[c.row + (i >> 2U & 1U)]) * f, d});
+        double const d = depth[i & 1U], f = g.perspective ? d : 1.0;
+        s.hull.push_back({x[i >> 1U & 1U] * f, y[i >> 2U & 1U] * f, d});
     }
     return s;
 }

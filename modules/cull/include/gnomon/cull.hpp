@@ -3,6 +3,7 @@
 
 #include <gnomon/cull/depth_range.hpp>
 #include <gnomon/cull/normal_cone.hpp>
+#include <gnomon/cull/box_rows.hpp>
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/cull/screen_bounds.hpp>
 #include <gnomon/cull/shapes.hpp>

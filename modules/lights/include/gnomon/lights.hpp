@@ -2,6 +2,7 @@
 // Lights, and which clusters of a grid each of them touches.
 
 #include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/brute_force.hpp>
 #include <gnomon/lights/light.hpp>
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/planes.hpp>

@@ -79,11 +79,12 @@ struct LightPairs {
 
 /// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
 struct Workspace {
-    std::vector<float> x, y, depth, radius;  ///< of the lights that take part, padded with copies to a multiple of 8
+    std::vector<float> x, y, depth, radius;  ///< of the points and spots that take part; 8 more may be read
     std::vector<float> axis[3], cosine, sine;  ///< of the narrow spots among them; the others have a cosine of -1
     bool cones = false;                      ///< there are such spots
     std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending; padded too
     std::size_t count = 0;
+    std::vector<std::uint32_t> others;       ///< directional lights and boxes that take part: they go one by one
     std::vector<Run> runs;                   ///< lists: what each light touches, by lights
     std::size_t run_count = 0;
     std::vector<std::uint32_t> cursors;      ///< lists: how many lights a cluster has, then where its next one goes
@@ -115,6 +116,7 @@ inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept 
         list->resize(padded);
     work.index.resize(padded);
     work.cones = false;
+    work.others.clear();
     Report report;
     std::size_t n = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -123,6 +125,8 @@ inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept 
             ++report.masked;
         } else if (!is_sound(l)) {
             ++report.bad;
+        } else if (l.kind == Kind::directional || l.kind == Kind::box) {
+            work.others.push_back(static_cast<std::uint32_t>(i));
         } else {
             work.x[n] = l.center.x;
             work.y[n] = l.center.y;
@@ -132,7 +136,7 @@ inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept 
             work.index[n++] = static_cast<std::uint32_t>(i);
         }
     }
-    report.taken = static_cast<std::uint32_t>(n);
+    report.taken = static_cast<std::uint32_t>(n + work.others.size());
     work.count = n;
     for (std::size_t i = n; i < padded; ++i) {
         work.index[i] = 0;

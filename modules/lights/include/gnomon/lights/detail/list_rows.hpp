@@ -6,6 +6,7 @@
 #include <gnomon/lights/admit.hpp>
 #include <gnomon/lights/detail/scalar.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -103,18 +104,27 @@ GNOMON_ROWS_TARGET void find_runs_avx2(cull::RowGrid const& grid, Workspace& wor
 
 #endif
 
-/// Fills `work.runs` with what every light that takes part touches.
-inline void find_runs(cull::RowGrid const& grid, std::span<Light const> lights, Workspace& work, bool lanes) {
-    work.run_count = 0;
+inline bool find_runs_lanes(cull::RowGrid const& grid, Workspace& work) {
 #if GNOMON_CULL_AVX2
-    if (lanes && cull::detail::has_avx2()) {
-        if (grid.perspective) return find_runs_avx2<true>(grid, work);
-        return find_runs_avx2<false>(grid, work);
+    if (cull::detail::has_avx2()) {
+        if (grid.perspective) find_runs_avx2<true>(grid, work);
+        else find_runs_avx2<false>(grid, work);
+        return true;
     }
 #endif
-    (void)lanes;
+    (void)grid, (void)work;
+    return false;
+}
+
+/// Fills `work.runs` with what every light that takes part touches, by lights.
+inline void find_runs(cull::RowGrid const& grid, std::span<Light const> lights, Workspace& work, bool lanes) {
+    work.run_count = 0;
     RunSink sink{work, grid.columns};
-    scatter_scalar(grid, lights, work, sink);
+    if (!lanes || !find_runs_lanes(grid, work)) scatter_scalar(grid, lights, {work.index.data(), work.count}, sink);
+    if (work.others.empty()) return;
+    scatter_scalar(grid, lights, work.others, sink);
+    std::sort(work.runs.begin(), work.runs.begin() + static_cast<std::ptrdiff_t>(work.run_count),
+              [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.cluster < b.cluster; });
 }
 
 }  // namespace gnomon::lights::detail

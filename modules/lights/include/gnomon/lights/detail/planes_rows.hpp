@@ -107,18 +107,27 @@ GNOMON_ROWS_TARGET void scatter_planes_avx2(cull::RowGrid const& grid, Workspace
 
 #endif
 
-inline void scatter_planes(cull::RowGrid const& grid, std::span<Light const> lights, Workspace const& work, PlaneTarget const& to,
-                           bool lanes) {
+/// Points and spots. returns: false where there are no such lanes here.
+inline bool scatter_planes_lanes(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
 #if GNOMON_CULL_AVX2
-    if (lanes && cull::detail::has_avx2()) {
-        if (grid.perspective) return scatter_planes_avx2<true>(grid, work, to);
-        return scatter_planes_avx2<false>(grid, work, to);
+    if (cull::detail::has_avx2()) {
+        if (grid.perspective) scatter_planes_avx2<true>(grid, work, to);
+        else scatter_planes_avx2<false>(grid, work, to);
+        return true;
     }
 #endif
-    (void)lanes;
-    std::fill_n(to.words, to.groups * to.stride, 0U);
+    (void)grid, (void)work, (void)to;
+    return false;
+}
+
+inline void scatter_planes(cull::RowGrid const& grid, std::span<Light const> lights, Workspace const& work, PlaneTarget const& to,
+                           bool lanes) {
     PlaneSink sink{to, grid.columns};
-    scatter_scalar(grid, lights, work, sink);
+    if (!lanes || !scatter_planes_lanes(grid, work, to)) {
+        std::fill_n(to.words, to.groups * to.stride, 0U);
+        scatter_scalar(grid, lights, {work.index.data(), work.count}, sink);
+    }
+    scatter_scalar(grid, lights, work.others, sink);
 }
 
 }  // namespace gnomon::lights::detail

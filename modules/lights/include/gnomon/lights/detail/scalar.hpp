@@ -12,16 +12,15 @@
 
 namespace gnomon::lights::detail {
 
-/// Every row of every slice that a light touches, one at a time: `sink.light(index)`, then `sink.row(row, columns)`.
+/// Every row of every slice that the lights of a list touch: `sink.light(index)`, then `sink.row(row, columns)`.
 template <class Sink>
-void scatter_scalar(cull::RowGrid const& grid, std::span<Light const> lights, Workspace const& work, Sink& sink) {
-    for (std::size_t n = 0; n < work.count; ++n) {
-        sink.light(work.index[n]);
-        for_each_row(grid, lights[work.index[n]], work.radius[n],
-                     [&](std::uint32_t row, cull::Span const& span) {
-                         cull::Columns const columns = cull::columns_of(grid, span);
-                         if (!columns.empty()) sink.row(row, columns);
-                     });
+void scatter_scalar(cull::RowGrid const& grid, std::span<Light const> lights, std::span<std::uint32_t const> which, Sink& sink) {
+    for (std::uint32_t const index : which) {
+        sink.light(index);
+        for_each_row(grid, lights[index], bounding_radius_m(lights[index]), [&](std::uint32_t row, cull::Span const& span) {
+            cull::Columns const columns = cull::columns_of(grid, span);
+            if (!columns.empty()) sink.row(row, columns);
+        });
     }
 }
 
