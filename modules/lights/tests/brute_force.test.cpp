@@ -1,0 +1,80 @@
+#include "../../cull/tests/hard_pairs.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/lights.hpp>
+
+#include <vector>
+
+using namespace gnomon;
+
+namespace {
+
+lights::Light make_any_light(test::Draw& draw, test::HardGrid const& hard, cull::RowGrid const& grid) {
+    test::Cell const cell{draw.below(grid.columns), draw.below(grid.rows), draw.below(grid.slices)};
+    test::HardLight const l = test::make_hard_light(draw, hard, cell);
+    unsigned const kind = draw.below(16);
+    lights::Light light = lights::make_point(l.center, l.range);
+    if (kind == 0) light = lights::make_directional();
+    if (kind == 1) light = lights::make_box(l.center, l.half[0], l.half[1], l.half[2]);
+    if (kind == 2) light = lights::make_spot(l.center, l.range, l.axis, 2.0F);
+    if (kind == 3) light.range_m = -1.0F;
+    if (kind > 8) {
+        light.kind = lights::Kind::spot;
+        light.axis = l.axis;
+        light.cos_half = l.cosine;
+        light.sin_half = l.sine;
+    }
+    light.layers = draw.below(9) == 0 ? 2U : 5U;
+    return light;
+}
+
+/// returns: how many pairs there are.
+std::size_t compare_ways(test::Draw& draw) {
+    test::HardGrid const hard = test::make_hard_grid(draw);
+    cull::RowGrid const grid = cull::make_row_grid(hard.view());
+    std::vector<lights::Light> list;
+    for (unsigned n = draw.below(70); n > 0; --n) list.push_back(make_any_light(draw, hard, grid));
+    std::uint32_t const layers = draw.below(2) != 0 ? ~0U : 4U;
+    lights::Workspace work;
+    lights::BitPlanes fast, slow;
+    auto const by_lanes = lights::assign_planes(grid, list, {.layers = layers}, work, fast);
+    auto const one_by_one = lights::assign_planes(grid, list, {.layers = layers, .lanes = false}, work, slow);
+    CHECK(by_lanes == one_by_one);
+    CHECK(fast.words == slow.words);
+    std::vector<lights::Cell> cells(grid.clusters());
+    auto const report = lights::count_lists(grid, list, {.layers = layers}, work, cells);
+    std::vector<std::uint32_t> indices(report.written), brute;
+    lights::fill_lists<std::uint32_t>(work, indices);
+    bool same = true;
+    for (std::uint32_t k = 0; k < grid.slices; ++k)
+        for (std::uint32_t j = 0; j < grid.rows; ++j)
+            for (std::uint32_t i = 0; i < grid.columns; ++i) {
+                std::size_t const c = (std::size_t{k} * grid.rows + j) * grid.columns + i;
+                same = same && cells[c].offset == brute.size();
+                for (std::uint32_t n = 0; n < list.size(); ++n) {
+                    bool const touches = (list[n].layers & layers) != 0 && lights::may_touch(grid, list[n], i, j, k);
+                    if (touches) brute.push_back(n);
+                    same = same && touches == fast.has(c, n);
+                }
+                same = same && cells[c].offset + cells[c].count == brute.size();
+            }
+    CHECK(same);
+    CHECK(brute == indices);
+    return brute.size();
+}
+
+}  // namespace
+
+TEST_CASE("brute force, scatter by lanes and one by one, planes and lists: all the same lights in the same order", "[lights][property]") {
+    test::Draw draw{11};
+    std::size_t pairs = 0;
+    for (int i = 0; i < 12; ++i) pairs += compare_ways(draw);
+    CHECK(pairs > 1000);
+}
+
+TEST_CASE("brute force, scatter, planes and lists, 400 scenes", "[lights][.full]") {
+    test::Draw draw{12};
+    std::size_t pairs = 0;
+    for (int i = 0; i < 400; ++i) pairs += compare_ways(draw);
+    CHECK(pairs > 100000);
+}
