@@ -5,4 +5,5 @@
 #include <gnomon/lights/brute_force.hpp>
 #include <gnomon/lights/light.hpp>
 #include <gnomon/lights/lists.hpp>
+#include <gnomon/lights/place.hpp>
 #include <gnomon/lights/planes.hpp>

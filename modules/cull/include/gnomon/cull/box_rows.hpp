@@ -64,13 +64,18 @@ inline void add_segment(RowPlanes const& row, double slack, std::array<math::dve
     }
 }
 
-/// Adds the ends of the line { y, depth } within the box, whose planes are n . (p - center) in [-1, 1].
-inline void add_line(std::array<math::dvec3, 3> const& normals, math::dvec3 const& center, std::array<double, 2> y_depth, double slack,
-                     BoxRange& range, double scale) noexcept {
+/// An edge of a row.
+struct RowLine {
+    double y, depth, scale;
+};
+
+/// Adds the ends of a row's edge within the box, whose planes are n . (p - center) in [-1, 1].
+inline void add_line(std::array<math::dvec3, 3> const& normals, math::dvec3 const& center, RowLine const& line, double slack,
+                     BoxRange& range) noexcept {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (math::dvec3 const& n : normals) {
         double const size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z), out = 1.0 + slack * size;
-        double const rest = n.y * (y_depth[0] - center.y) + n.z * (y_depth[1] - center.z);
+        double const rest = n.y * (line.y - center.y) + n.z * (line.depth - center.z);
         if (std::abs(n.x) < 1e-12 * size) {
             if (std::abs(rest) > out) return;
             continue;
@@ -80,8 +85,8 @@ inline void add_line(std::array<math::dvec3, 3> const& normals, math::dvec3 cons
         high = std::min(high, std::max(a, b));
     }
     if (low > high) return;
-    range.add((center.x + low) / scale);
-    range.add((center.x + high) / scale);
+    range.add((center.x + low) / line.scale);
+    range.add((center.x + high) / line.scale);
 }
 
 [[nodiscard]] inline math::dvec3 crossed(math::dvec3 const& a, math::dvec3 const& b) noexcept {
@@ -122,7 +127,7 @@ inline void add_line(std::array<math::dvec3, 3> const& normals, math::dvec3 cons
         for (double const y : {planes.top, planes.bottom})
             if (!std::isinf(depth) && !std::isinf(y)) {
                 double const scale = grid.perspective ? depth : 1.0;
-                detail::add_line(normals, c, {y * scale, depth}, slack, range, scale);
+                detail::add_line(normals, c, {y * scale, depth, scale}, slack, range);
             }
     Span s;
     double const off = range.low <= range.high ? slack / (grid.perspective ? planes.near : 1.0) + 1e-7 * (std::abs(range.low) + std::abs(range.high)) : 0.0;

@@ -17,8 +17,8 @@ inline constexpr int small_rows = 4, small_slices = 4, small_columns = 8;
 
 /// The directions' ends in the slices between the planes of `cut`, a light a lane.
 template <bool perspective>
-GNOMON_ROWS_INLINE void make_sides(RowGrid const& g, Ready8 const& b, Spots8 const& spots, Cut8 const* cut, int slices, Sides8* sides) noexcept {
-    Aim8 const aim{b.depth, spots.slack, spots.depth};
+GNOMON_ROWS_INLINE void make_sides(F8 depth, Spots8 const& spots, Cut8 const* cut, int slices, Sides8* sides) noexcept {
+    Aim8 const aim{depth, spots.slack, spots.depth};
     for (int i = 0; i < 4; ++i) {
         SideCut8 near = side_cut<perspective>(aim, spots.side[i], cut[0]);
         for (int k = 0; k < slices; ++k) {
@@ -27,8 +27,6 @@ GNOMON_ROWS_INLINE void make_sides(RowGrid const& g, Ready8 const& b, Spots8 con
             near = far;
         }
     }
-    for (int k = 0; k < slices; ++k)
-        sides[k].inverse = gather(g.inverse.data(), least(b.slices.first + all(k), all(static_cast<std::int32_t>(g.slices))));
 }
 
 /// One spot of eight: what `side_cut` needs with a direction a lane, and its silhouettes in every lane.
@@ -74,7 +72,11 @@ GNOMON_ROWS_INLINE void visit_small(RowGrid const& g, Ready8 const& b, Spots8 co
     for (int k = 0; k <= slice_count; ++k) gather_cut(g, b, b.slices.first + all(k), lanes, cut[k]);
     for (int k = 0; k < slice_count; ++k) cap[k] = slice_cap(b, cut[k], cut[k + 1]);
     Sides8 sides[small_slices];
-    if constexpr (with_spots) make_sides<perspective>(g, b, spots, cut, slice_count, sides);
+    if constexpr (with_spots) {
+        make_sides<perspective>(b.depth, spots, cut, slice_count, sides);
+        for (int k = 0; k < slice_count; ++k)
+            sides[k].inverse = gather(g.inverse.data(), least(b.slices.first + all(k), all(static_cast<std::int32_t>(g.slices))));
+    }
 
     F8 y = all(0.0F);
     for (int j = 0; j <= row_count; ++j) {
