@@ -87,7 +87,7 @@ using Corners = std::array<math::dvec3, 4>;
 ///
 /// A cone of less than 90 degrees that holds the corners holds the cell between them. A ratio errs by e = 2^-24, its
 /// part of n by 2 e more of the range [0, 1]: a direction is at most 6 e = 4e-7 beyond its cell along each of two axes.
-/// Rounding the axis turns it by 1e-7. A cosine falls by at most the angle: 4e-6 is more than all of them.
+/// Rounding the axis turns it by 1e-7. A cosine falls by at most the angle, less than 7e-7 in all: 1e-6 is taken off.
 ///
 /// expects: n from 1 to 104, cell below 6 n^2
 /// source:  [Olsson 2014, Paper II, figure 4]
@@ -95,7 +95,7 @@ using Corners = std::array<math::dvec3, 4>;
     GNOMON_EXPECT(n >= 1 && n <= 104 && cell < 6 * n * n);
     detail::Corners const corners = detail::cell_corners(cell, n);
     math::dvec3 const axis = detail::narrowest_axis(corners);
-    return {math::to_float(axis), math::next_down(static_cast<float>(detail::least_cosine(axis, corners) - 4e-6))};
+    return {math::to_float(axis), math::next_down(static_cast<float>(detail::least_cosine(axis, corners) - 1e-6))};
 }
 
 /// The cones of all 6 n^2 cells.
