@@ -10,8 +10,10 @@
 #include <gnomon/core/executor.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace gnomon::bvh {
@@ -50,8 +52,8 @@ struct KeySource {
     }
 };
 
-template <class Items, class E>
-BlockSummary summarize_all(Items const& items, Workspace& work, E& executor) {
+template <class Items>
+BlockSummary summarize_all(Items const& items, Workspace& work, core::ExecutorRef executor) {
     Blocks const blocks = Blocks::of(items.size());
     work.blocks.assign(blocks.count, BlockSummary{});
     Arrays<Items> const arrays = items.arrays();
@@ -73,8 +75,9 @@ BlockSummary summarize_all(Items const& items, Workspace& work, E& executor) {
 }
 
 /// Keys of all usable items, sorted.
-template <class Key, class Items, class E>
-Key const* sorted_keys(Items const& items, BlockSummary const& total, std::vector<Key>& keys, Workspace& work, E& executor) {
+template <class Key, class Items>
+Key const* sorted_keys(Items const& items, BlockSummary const& total, std::vector<Key>& keys, Workspace& work,
+                       core::ExecutorRef executor) {
     Blocks const blocks = Blocks::of(items.size());
     keys.resize(std::max(keys.size(), 2 * items.size()));
     work.records.resize(std::max(work.records.size(), items.size() * record_size<Items::fields>));
@@ -100,8 +103,8 @@ Key const* sorted_keys(Items const& items, BlockSummary const& total, std::vecto
 /// source:  [Olsson 2014, Paper II, section 3.3; Paper III, section 5.2.1]
 /// expects: at most 2^31 items.
 /// cost:    O(n): three digits of 30-bit codes, six of 63-bit ones. Allocates only what `work` and `tree` lack.
-template <ItemList Items, std::uint32_t W, core::Executor E>
-void build(Items const& items, CodeBits codes, Workspace& work, Tree<Items, W>& tree, E&& executor) {
+template <ItemList Items, std::uint32_t W>
+void build(Items const& items, CodeBits codes, Workspace& work, Tree<Items, W>& tree, core::ExecutorRef executor) {
     detail::BlockSummary const total = detail::summarize_all(items, work, executor);
     tree.layout = make_layout(total.usable, W);
     tree.left_out = items.size() - total.usable;
@@ -117,6 +120,13 @@ void build(Items const& items, CodeBits codes, Workspace& work, Tree<Items, W>& 
     if (codes == CodeBits::bits_30) fill(work.keys_30);
     else fill(work.keys_63);
     tree.built_cost = cost(tree.view());
+}
+
+/// The same on any executor, a temporary too.
+template <ItemList Items, std::uint32_t W, core::Executor E>
+    requires(!std::same_as<std::remove_cvref_t<E>, core::ExecutorRef>)
+void build(Items const& items, CodeBits codes, Workspace& work, Tree<Items, W>& tree, E&& executor) {
+    build(items, codes, work, tree, core::ExecutorRef(executor));
 }
 
 /// A new tree over `items`, on the calling thread.

@@ -52,7 +52,7 @@ Refit refit(Tree<Items, W>& tree, Items const& items, E&& executor) {
     GNOMON_EXPECT(items.size() == tree.ids.size() + tree.left_out);
     std::atomic<std::uint64_t> lost{0};
     detail::TreeArrays<Items, W> const arrays(tree);
-    detail::fill_tree(arrays, detail::MovedSource<Items>{items.arrays(), tree.ids.data(), lost}, executor);
+    detail::fill_tree(arrays, detail::MovedSource<Items>{items.arrays(), tree.ids.data(), lost}, core::ExecutorRef(executor));
     Refit result;
     result.cost = cost(tree.view());
     result.quality = result.cost > 0.0 ? tree.built_cost / result.cost : 1.0;

@@ -4,6 +4,7 @@
 
 #include <gnomon/bvh/detail/lanes_of.hpp>
 #include <gnomon/bvh/tree.hpp>
+#include <gnomon/core/executor.hpp>
 
 #include <array>
 #include <cstddef>
@@ -133,8 +134,8 @@ using PlainLanes = float;
 #endif
 
 /// Fills the whole tree, level by level.
-template <class Items, std::uint32_t W, class Source, class E>
-void fill_tree(TreeArrays<Items, W> const& tree, Source const& source, E& executor) {
+template <class Items, std::uint32_t W, class Source>
+void fill_tree(TreeArrays<Items, W> const& tree, Source const& source, core::ExecutorRef executor) {
     if (tree.layout.levels == 0) return;
     bool const wide = has_avx2();
     auto const leaves = [&](std::size_t begin, std::size_t end) {

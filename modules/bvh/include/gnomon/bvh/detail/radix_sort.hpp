@@ -49,8 +49,8 @@ struct Blocks {
 };
 
 /// Calls `f(block)` for every block.
-template <class E, class F>
-void for_each_block(E& executor, Blocks const& blocks, F const& f) {
+template <class F>
+void for_each_block(core::ExecutorRef executor, Blocks const& blocks, F const& f) {
     auto const run = [&f](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) f(block);
     };
@@ -73,8 +73,9 @@ inline void offsets_of_counts(std::uint32_t* counts, std::size_t blocks, std::si
 /// Sorts by code; equal codes keep their order. `keys` and `spare` are as long; the result is in the one returned.
 ///
 /// cost: two passes over the keys a digit, and 4 bytes times blocks times 2^digit_bits of `counts`.
-template <class Key, class E>
-[[nodiscard]] Key* sort_keys(Key* keys, Key* spare, std::size_t n, std::vector<std::uint32_t>& counts, E& executor) {
+template <class Key>
+[[nodiscard]] Key* sort_keys(Key* keys, Key* spare, std::size_t n, std::vector<std::uint32_t>& counts,
+                             core::ExecutorRef executor) {
     constexpr std::size_t buckets = std::size_t{1} << Key::digit_bits;
     Blocks const blocks = Blocks::of(n);
     counts.resize(std::max(counts.size(), blocks.count * buckets));
