@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 using namespace gnomon;
 
@@ -111,5 +112,21 @@ TEST_CASE("a spot's rows hold every cluster that it touches, and at most a quart
         CHECK(n.missed == 0);
         CHECK(n.undecided <= n.exact / 1000);
         CHECK(n.listed * 4 <= n.exact * 5);
+    }
+}
+
+TEST_CASE("rows of 4096 balls and spots of the yardsticks' scenes", "[cull][.full]") {
+    test::YardGrid const yard;
+    cluster::GridView const view = yard.view();
+    cull::RowGrid const grid = cull::make_row_grid(view);
+    for (auto const& scene : test::light_scenes) {
+        auto const lights = test::make_lights(scene, 4096);
+        RowCount const balls = count_pairs(view, grid, lights), spots = count_spot_pairs(view, grid, lights);
+        std::printf("%s: balls %zu listed, %zu exact, %zu undecided; spots %zu listed, %zu exact, %zu undecided\n", scene.name, balls.listed,
+                    balls.exact, balls.undecided, spots.listed, spots.exact, spots.undecided);
+        CHECK(balls.missed + spots.missed == 0);
+        CHECK(balls.listed <= balls.exact + balls.exact / 1000);
+        CHECK(spots.listed * 4 <= spots.exact * 5);
+        if (!scene.by_volume && scene.r0 > 9) CHECK(balls.exact == 1683500);
     }
 }

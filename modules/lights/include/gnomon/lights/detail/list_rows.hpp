@@ -81,14 +81,22 @@ struct RunSink8 {
     }
     GNOMON_ROWS_INLINE void large_row(std::uint32_t slice, std::uint32_t row, float low, float high) noexcept {
         __m256 const l = _mm256_set1_ps(low), h = _mm256_set1_ps(high);
-        std::uint32_t begin = past, count = 0;
-        for (std::uint32_t i = from; i < past; i += 8) {
-            std::uint32_t const in = touched(i, l, h);
-            std::uint32_t const at = i + static_cast<std::uint32_t>(_tzcnt_u32(in));
-            begin = at < begin && in != 0 ? at : begin;
-            count += static_cast<std::uint32_t>(_mm_popcnt_u32(in));
+        std::uint32_t const start = from, end = past, columns = (slice * grid.rows + row) * grid.columns;
+        std::uint32_t begin = end, count = 0;
+        if (end - start <= 64) {
+            std::uint64_t in = 0;
+            for (std::uint32_t i = start; i < end; i += 8) in |= std::uint64_t{touched(i, l, h)} << (i - start);
+            begin = start + static_cast<std::uint32_t>(_tzcnt_u64(in));
+            count = static_cast<std::uint32_t>(_mm_popcnt_u64(in));
+        } else {
+            for (std::uint32_t i = start; i < end; i += 8) {
+                std::uint32_t const in = touched(i, l, h);
+                std::uint32_t const at = i + static_cast<std::uint32_t>(_tzcnt_u32(in));
+                begin = at < begin && in != 0 ? at : begin;
+                count += static_cast<std::uint32_t>(_mm_popcnt_u32(in));
+            }
         }
-        *next = {(slice * grid.rows + row) * grid.columns + begin, count, light};
+        *next = {columns + begin, count, light};
         next += count != 0 ? 1 : 0;
     }
     GNOMON_ROWS_INLINE void done() noexcept { flush(8); }
