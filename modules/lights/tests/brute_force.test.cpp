@@ -60,12 +60,20 @@ std::size_t compare_ways(test::Draw& draw) {
             }
     CHECK(same);
     CHECK(brute == indices);
+    std::vector<lights::Cell> tree_cells(grid.clusters());
+    lights::LightTree const tree = lights::build_light_tree(list, layers);
+    auto const by_tree = lights::count_lists(grid, list, tree, work, tree_cells);
+    CHECK(by_tree.lights == report.lights);
+    std::vector<std::uint32_t> tree_indices(by_tree.written);
+    lights::fill_lists<std::uint32_t>(work, tree_indices);
+    CHECK(tree_cells == cells);
+    CHECK(tree_indices == indices);
     return brute.size();
 }
 
 }  // namespace
 
-TEST_CASE("brute force, scatter by lanes and one by one, planes and lists: all the same lights in the same order", "[lights][property]") {
+TEST_CASE("brute force, scatter by lanes and one by one, tree, planes and lists: all the same lights in the same order", "[lights][property]") {
     test::Draw draw{11};
     std::size_t pairs = 0;
     for (int i = 0; i < 12; ++i) pairs += compare_ways(draw);

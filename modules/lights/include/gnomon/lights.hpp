@@ -3,6 +3,7 @@
 
 #include <gnomon/lights/admit.hpp>
 #include <gnomon/lights/brute_force.hpp>
+#include <gnomon/lights/hierarchical.hpp>
 #include <gnomon/lights/light.hpp>
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/place.hpp>
