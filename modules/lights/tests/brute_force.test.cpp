@@ -62,7 +62,7 @@ std::size_t compare_ways(test::Draw& draw) {
     CHECK(brute == indices);
     std::vector<lights::Cell> tree_cells(grid.clusters());
     lights::LightTree const tree = lights::build_light_tree(list, layers);
-    auto const by_tree = lights::count_lists(grid, list, tree, work, tree_cells);
+    auto const by_tree = lights::count_lists_by_tree(grid, list, tree, work, tree_cells);
     CHECK(by_tree.lights == report.lights);
     std::vector<std::uint32_t> tree_indices(by_tree.written);
     lights::fill_lists<std::uint32_t>(work, tree_indices);

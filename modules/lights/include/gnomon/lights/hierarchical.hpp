@@ -75,7 +75,7 @@ namespace detail {
 /// `count_lists` by the tree of the same lights; then `fill_lists`. Ignores `config.capacity` and `config.layers`.
 ///
 /// cost: O(rows (nodes + candidates)); allocates when `work` grows.
-[[nodiscard]] inline ListsReport count_lists(cull::RowGrid const& grid, std::span<Light const> lights, LightTree const& tree,
+[[nodiscard]] inline ListsReport count_lists_by_tree(cull::RowGrid const& grid, std::span<Light const> lights, LightTree const& tree,
                                              Workspace& work, std::span<Cell> cells) {
     GNOMON_EXPECT(cells.size() == grid.clusters());
     ListsReport report;
