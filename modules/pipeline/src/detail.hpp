@@ -3,6 +3,7 @@
 
 #include <gnomon/core/executor.hpp>
 #include <gnomon/pipeline/frame.hpp>
+#include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/pipeline/technique.hpp>
 #include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/draw.hpp>
@@ -69,5 +70,9 @@ struct AlphaRule {
 
 [[nodiscard]] Technique shadow_map_technique() noexcept;
 [[nodiscard]] Technique ray_technique() noexcept;
+[[nodiscard]] LightingTechnique deferred_technique() noexcept;
+[[nodiscard]] LightingTechnique deferred_stencil_technique() noexcept;
+[[nodiscard]] LightingTechnique tiled_deferred_technique() noexcept;
+[[nodiscard]] LightingTechnique clustered_deferred_technique() noexcept;
 
 }  // namespace gnomon::pipeline

@@ -1,7 +1,8 @@
-// The table of techniques and the reading of their parameters.
+// The tables of techniques and the reading of their parameters.
 
 #include "detail.hpp"
 
+#include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/pipeline/technique.hpp>
 
 #include <algorithm>
@@ -19,6 +20,18 @@ std::array<Technique, 2> const& table() noexcept {
     return all;
 }
 
+std::array<LightingTechnique, 4> const& lighting_table() noexcept {
+    static std::array<LightingTechnique, 4> const all{deferred_technique(), deferred_stencil_technique(),
+                                                      tiled_deferred_technique(), clustered_deferred_technique()};
+    return all;
+}
+
+/// Whose parameters are read.
+struct Owner {
+    std::string_view name;
+    std::span<ParamInfo const> params;
+};
+
 std::string short_text(double x) {
     std::array<char, 32> buffer{};
     auto const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr;
@@ -35,20 +48,20 @@ std::string listed(Items const& items, Name name) {
     return all;
 }
 
-core::Failure<Error> bad_value(Technique const& technique, ParamInfo const& info, std::string const& text,
+core::Failure<Error> bad_value(Owner const& owner, ParamInfo const& info, std::string const& text,
                                std::string const& legal) {
     return {Error::bad_value,
-            std::string(technique.name) + "." + std::string(info.name) + " is '" + text + "'; it must be " + legal};
+            std::string(owner.name) + "." + std::string(info.name) + " is '" + text + "'; it must be " + legal};
 }
 
-Result<Params::Value> read_choice(Technique const& technique, ParamInfo const& info, std::string const& text) {
+Result<Params::Value> read_choice(Owner const& owner, ParamInfo const& info, std::string const& text) {
     for (std::size_t i = 0; i < info.choices.size(); ++i)
         if (info.choices[i] == text) return Params::Value{info.name, text, static_cast<double>(i), info.kind};
-    return bad_value(technique, info, text,
+    return bad_value(owner, info, text,
                      "one of " + listed(info.choices, [](std::string_view word) { return std::string(word); }));
 }
 
-Result<Params::Value> read_number(Technique const& technique, ParamInfo const& info, std::string const& text) {
+Result<Params::Value> read_number(Owner const& owner, ParamInfo const& info, std::string const& text) {
     bool const whole = info.kind == ParamKind::integer;
     std::string const unit = info.unit.empty() ? "" : " " + std::string(info.unit);
     std::string const legal = std::string(whole ? "a whole number" : "a number") + " from " + short_text(info.min) +
@@ -59,17 +72,49 @@ Result<Params::Value> read_number(Technique const& technique, ParamInfo const& i
     auto const read = std::from_chars(begin, end, number);
     bool const good = read.ec == std::errc{} && read.ptr == end && number >= info.min && number <= info.max &&
                       (!whole || number == std::floor(number));
-    if (!good) return bad_value(technique, info, text, legal);
+    if (!good) return bad_value(owner, info, text, legal);
     return Params::Value{info.name, short_text(number), number, info.kind};
 }
 
-Result<Params::Value> read_value(Technique const& technique, ParamInfo const& info, std::string const& text) {
-    return info.kind == ParamKind::choice ? read_choice(technique, info, text) : read_number(technique, info, text);
+Result<Params::Value> read_value(Owner const& owner, ParamInfo const& info, std::string const& text) {
+    return info.kind == ParamKind::choice ? read_choice(owner, info, text) : read_number(owner, info, text);
 }
 
 Params::Value const* find_value(std::span<Params::Value const> values, std::string_view name) noexcept {
     auto const at = std::find_if(values.begin(), values.end(), [&](auto const& value) { return value.name == name; });
     return at == values.end() ? nullptr : &*at;
+}
+
+template <class T>
+Result<T const*> find_named(std::span<T const> all, std::string_view kind, std::string_view name) {
+    for (T const& technique : all)
+        if (technique.name == name) return &technique;
+    return core::Failure{Error::unknown_technique, "there is no " + std::string(kind) + " '" + std::string(name) + "'; there are " +
+                                                       listed(all, [](T const& t) { return std::string(t.name); })};
+}
+
+Result<Params> read_params(Owner const& owner, std::span<Setting const> settings) {
+    Params params;
+    for (ParamInfo const& info : owner.params) {
+        auto value = read_value(owner, info, std::string(info.default_text));
+        GNOMON_EXPECT(value.has_value());
+        if (!value) return std::move(value).failure();
+        params.values.push_back(std::move(value).value());
+    }
+    for (Setting const& setting : settings) {
+        auto const info = std::find_if(owner.params.begin(), owner.params.end(),
+                                       [&](ParamInfo const& candidate) { return candidate.name == setting.name; });
+        if (info == owner.params.end()) {
+            std::string const known = listed(owner.params, [](ParamInfo const& p) { return std::string(p.name); });
+            return core::Failure{Error::unknown_parameter, "'" + std::string(owner.name) + "' has no parameter '" +
+                                                               setting.name + "'; it has " +
+                                                               (known.empty() ? "none" : known)};
+        }
+        auto value = read_value(owner, *info, setting.text);
+        if (!value) return std::move(value).failure();
+        params.values[static_cast<std::size_t>(info - owner.params.begin())] = std::move(value).value();
+    }
+    return params;
 }
 
 }  // namespace
@@ -87,37 +132,18 @@ std::string_view Params::word(std::string_view name) const noexcept {
 }
 
 std::span<Technique const> techniques() noexcept { return table(); }
+std::span<LightingTechnique const> lighting_techniques() noexcept { return lighting_table(); }
 
-Result<Technique const*> find_technique(std::string_view name) {
-    for (Technique const& technique : table())
-        if (technique.name == name) return &technique;
-    return core::Failure{Error::unknown_technique,
-                         "there is no technique '" + std::string(name) + "'; there are " +
-                             listed(table(), [](Technique const& t) { return std::string(t.name); })};
+Result<Technique const*> find_technique(std::string_view name) { return find_named(techniques(), "technique", name); }
+Result<LightingTechnique const*> find_lighting_technique(std::string_view name) {
+    return find_named(lighting_techniques(), "lighting technique", name);
 }
 
 Result<Params> make_params(Technique const& technique, std::span<Setting const> settings) {
-    Params params;
-    for (ParamInfo const& info : technique.params) {
-        auto value = read_value(technique, info, std::string(info.default_text));
-        GNOMON_EXPECT(value.has_value());
-        if (!value) return std::move(value).failure();
-        params.values.push_back(std::move(value).value());
-    }
-    for (Setting const& setting : settings) {
-        auto const info = std::find_if(technique.params.begin(), technique.params.end(),
-                                       [&](ParamInfo const& candidate) { return candidate.name == setting.name; });
-        if (info == technique.params.end()) {
-            std::string const known = listed(technique.params, [](ParamInfo const& p) { return std::string(p.name); });
-            return core::Failure{Error::unknown_parameter, "'" + std::string(technique.name) + "' has no parameter '" +
-                                                               setting.name + "'; it has " +
-                                                               (known.empty() ? "none" : known)};
-        }
-        auto value = read_value(technique, *info, setting.text);
-        if (!value) return std::move(value).failure();
-        params.values[static_cast<std::size_t>(info - technique.params.begin())] = std::move(value).value();
-    }
-    return params;
+    return read_params({technique.name, technique.params}, settings);
+}
+Result<Params> make_params(LightingTechnique const& technique, std::span<Setting const> settings) {
+    return read_params({technique.name, technique.params}, settings);
 }
 
 }  // namespace gnomon::pipeline

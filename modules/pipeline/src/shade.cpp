@@ -1,7 +1,8 @@
 // Lambert and Blinn-Phong over base colour textures, a sky for ambience, and the pictures made of them.
 
 #include "detail.hpp"
-#include "texture.hpp"
+#include "palette.hpp"
+#include "tone.hpp"
 
 #include <gnomon/pipeline/shade.hpp>
 
@@ -9,13 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace gnomon::pipeline {
 
 namespace {
-
-float luminance(math::vec3 const& c) noexcept { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
 
 /// The light's strength at a position, before the surface's angle: 1 / d^2 with glTF's windows for range and cone.
 float falloff(Light const& light, math::vec3 const& light_position, math::vec3 const& position) noexcept {
@@ -37,54 +35,6 @@ float falloff(Light const& light, math::vec3 const& light_position, math::vec3 c
     }
     return strength;
 }
-
-/// Texels per metre of each triangle would be a table; per sample it is one division more, and no memory.
-float texels_per_metre(scene::Geometry const& g, std::uint32_t triangle, math::ivec2 texture_px) noexcept {
-    std::uint32_t const* const corner = g.indices.data() + std::size_t{triangle} * 3;
-    math::vec3 const e1 = g.positions[corner[1]] - g.positions[corner[0]];
-    math::vec3 const e2 = g.positions[corner[2]] - g.positions[corner[0]];
-    math::vec2 const u1 = g.uv[corner[1]] - g.uv[corner[0]];
-    math::vec2 const u2 = g.uv[corner[2]] - g.uv[corner[0]];
-    math::vec3 const cross = glm::cross(e1, e2);
-    float const area = std::sqrt(glm::dot(cross, cross));
-    float const texels =
-        std::abs(u1.x * u2.y - u1.y * u2.x) * static_cast<float>(texture_px.x) * static_cast<float>(texture_px.y);
-    return area > 0.0F ? std::sqrt(texels / area) : 0.0F;
-}
-
-/// The frame's materials, ready for shading.
-class Palette {
-  public:
-    explicit Palette(Frame const& frame) : frame_(&frame), chains_(frame.scene->materials.size()) {
-        std::vector<std::uint8_t> seen(chains_.size(), 0);
-        for (std::uint32_t const triangle : frame.samples.triangle)
-            seen[frame.geometry->triangle_material[triangle]] = 1;
-        for (std::size_t i = 0; i < chains_.size(); ++i) {
-            scene::Image const* const image = base_image(*frame.scene, frame.scene->materials[i]);
-            if (seen[i] != 0 && image != nullptr) chains_[i].emplace(*image);
-        }
-    }
-
-    [[nodiscard]] scene::Material const& material(std::size_t sample) const noexcept {
-        return frame_->scene->materials[frame_->geometry->triangle_material[frame_->samples.triangle[sample]]];
-    }
-
-    [[nodiscard]] math::vec3 base_color(std::size_t i, float pixel_m, float cosine) const noexcept {
-        scene::Material const& m = material(i);
-        math::vec3 const factor(m.base_color.x, m.base_color.y, m.base_color.z);
-        std::uint32_t const triangle = frame_->samples.triangle[i];
-        auto const& chain = chains_[frame_->geometry->triangle_material[triangle]];
-        if (!chain || frame_->geometry->uv.empty()) return factor;
-        // The pixel's footprint grows with 1 / cosine along one direction only: the geometric mean of both.
-        float const footprint = pixel_m / std::sqrt(std::fmax(cosine, 0.05F));
-        float const density = texels_per_metre(*frame_->geometry, triangle, chain->size_px());
-        return factor * chain->at(frame_->samples.uv[i], density * footprint, *base_texture(*frame_->scene, m));
-    }
-
-  private:
-    Frame const* frame_;
-    std::vector<std::optional<MipChain>> chains_;
-};
 
 /// Light that falls on a sample if nothing blocks it, as the exposure sees it.
 std::vector<float> unshadowed(Frame const& frame, core::ExecutorRef executor) {
@@ -110,12 +60,6 @@ float key_light(Frame const& frame, core::ExecutorRef executor) {
     return strength * static_cast<float>(key);
 }
 
-/// source: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2016: a toe for contrast, a shoulder for highlights.
-float tone_mapped(float radiance) noexcept {
-    float const x = std::fmin(std::fmax(radiance, 0.0F), 1e4F);
-    return std::fmin(x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F), 1.0F);
-}
-
 math::vec3 sky_at(Frame const& frame, std::size_t pixel) noexcept {
     auto const width = static_cast<std::size_t>(frame.view.size_px.x);
     math::dvec2 const px(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
@@ -130,11 +74,7 @@ math::vec3 sky_at(Frame const& frame, std::size_t pixel) noexcept {
 
 math::vec3 displayed(Shading const& shading, std::size_t i, float visibility) noexcept {
     math::vec3 const radiance = (shading.ambient[i] + shading.direct[i] * visibility) * shading.exposure;
-    return math::vec3(tone_mapped(radiance.x), tone_mapped(radiance.y), tone_mapped(radiance.z));
-}
-
-void put(Image& image, std::size_t pixel, math::vec3 const& color) noexcept {
-    for (int c = 0; c < 3; ++c) image.rgb[pixel * 3 + static_cast<std::size_t>(c)] = srgb_from_linear(color[c]);
+    return tone_mapped(radiance);
 }
 
 template <class Color>

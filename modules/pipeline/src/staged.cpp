@@ -48,10 +48,10 @@ struct PackedTextures {
                 table.push_back({});
                 continue;
             }
-            std::uint32_t const modes = static_cast<std::uint32_t>(texture.wrap_u) |
+            std::uint32_t const wraps = static_cast<std::uint32_t>(texture.wrap_u) |
                                         static_cast<std::uint32_t>(texture.wrap_v) << 8U |
                                         static_cast<std::uint32_t>(texture.channels) << 16U;
-            table.push_back({static_cast<std::uint32_t>(texels.size()), texture.size_px.x, texture.size_px.y, modes});
+            table.push_back({static_cast<std::uint32_t>(texels.size()), texture.size_px.x, texture.size_px.y, wraps});
             texels.insert(texels.end(), texture.texels.begin(), texture.texels.end());
             texels.resize((texels.size() + 3) / 4 * 4);
         }

@@ -6,6 +6,7 @@
 #include <gnomon/shadow/map_view.hpp>
 
 #include "detail.hpp"
+#include "lighting.hpp"
 #include "staged.hpp"
 
 #include <cstdint>
@@ -45,6 +46,7 @@ struct Workspace::State {
     StagedSamples samples;
     ShadowMaps shadow;
     Rays rays;
+    Lighting lighting;
 
     /// From here on all is on `to`: what another backend holds is released.
     void move_to(backend::Backend& to) {
@@ -56,6 +58,7 @@ struct Workspace::State {
         samples = {};
         shadow = {};
         rays = {};
+        lighting = {};
         device = nullptr;
     }
 };

@@ -8,3 +8,4 @@
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/place.hpp>
 #include <gnomon/lights/planes.hpp>
+#include <gnomon/lights/shade.hpp>

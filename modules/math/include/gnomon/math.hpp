@@ -5,6 +5,7 @@
 #include <gnomon/math/cone.hpp>
 #include <gnomon/math/formula.hpp>
 #include <gnomon/math/frustum.hpp>
+#include <gnomon/math/half.hpp>
 #include <gnomon/math/interval.hpp>
 #include <gnomon/math/lanes.hpp>
 #include <gnomon/math/morton.hpp>

@@ -5,6 +5,7 @@
 #include <gnomon/pipeline/frame.hpp>
 #include <gnomon/pipeline/image.hpp>
 #include <gnomon/pipeline/light.hpp>
+#include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/pipeline/measures.hpp>
 #include <gnomon/pipeline/report.hpp>
 #include <gnomon/pipeline/shade.hpp>

@@ -61,6 +61,15 @@ GN_FN GN_FLOAT gn_depth_of_code(GN_FLOAT code) {
 /// The same for a texel that a device has turned into a float itself, up to 1.5 units of the last place off c / 65535.
 GN_FN GN_FLOAT gn_depth_of_unorm16(GN_FLOAT texel) { return gn_depth_of_code(gn_code_of_depth(texel)); }
 
+/// The value of a finite IEEE half, from its 16 bits: exact.
+GN_FN GN_FLOAT gn_float_of_half(GN_UINT bits) {
+    GN_UINT magnitude = bits & 0x7FFFu;
+    GN_PRECISE GN_FLOAT small = GN_FLOAT(magnitude) * 5.9604644775390625e-8;  // 2^-24: the last bit of halves below 2^-14
+    GN_FLOAT normal = uintBitsToFloat((magnitude << 13) + 0x38000000u);
+    GN_FLOAT value = GN_SELECT(magnitude < 0x400u, small, normal);
+    return GN_SELECT((bits & 0x8000u) != 0u, -value, value);
+}
+
 GN_END
 
 #endif  // GNOMON_MATH_FORMULA_BITS_GLSL

@@ -1,0 +1,86 @@
+#pragma once
+// What lighting techniques share: lights in both spaces, and the run of the kernel `shade_lists`.
+
+#include <gnomon/cluster.hpp>
+#include <gnomon/cull/depth_range.hpp>
+#include <gnomon/lights.hpp>
+#include <gnomon/pipeline/lighting.hpp>
+
+#include "gbuffer.hpp"
+#include "light_kernels.hpp"
+#include "staged.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// The lights as shading and as assignment see them; the same place in both lists.
+struct PreparedLights {
+    std::vector<lights::ShadedLight> shaded;  ///< Work space.
+    std::vector<lights::Light> culled;        ///< Culling space of the frame's view.
+};
+
+/// Of all lighting techniques: on the backend, and memory of the host.
+struct Lighting {
+    std::shared_ptr<FrameState const> gbuffer_of;
+    GBufferFormat format = GBufferFormat::f32;
+    StagedBuffer gbuffer;
+    StagedBuffer lights;
+    StagedBuffer list_of;
+    StagedBuffer sample_of;
+    StagedBuffer cells;
+    StagedBuffer indices;
+    StagedBuffer radiance;
+    StagedBuffer computations;
+
+    PreparedLights prepared;
+    std::vector<std::uint32_t> keys;           ///< Of samples.
+    std::vector<std::uint32_t> list_of_sample;
+    std::vector<std::uint32_t> unique_keys;
+    std::vector<lights::Cell> dense_cells;     ///< Of every cluster or tile of the grid.
+    std::vector<lights::Cell> list_cells;      ///< Of those that are shaded.
+    std::vector<std::uint32_t> list_indices;
+    std::vector<cull::DepthRange> depth_ranges;
+    cluster::UniqueWorkspace<std::uint32_t> unique;
+    lights::Workspace assignment;
+
+    /// Writes the G-buffer unless this frame's is there.
+    void fit_gbuffer(Verbs& verbs, Frame const& frame, GBufferFormat wanted, core::ExecutorRef executor);
+};
+
+/// Ranges grow by what the rounding of samples may hide: a light that reaches a sample, as shading sees both, is never
+/// culled. A light without an end is everywhere.
+void prepare_lights(Frame const& frame, std::span<Light const> lights, PreparedLights& out);
+
+/// A parameter that all of these techniques have.
+extern ParamInfo const gbuffer_param;
+extern ParamInfo const tile_param;
+
+/// Depth in front of the eye of a work-space position, as keys and depth ranges see it.
+class SampleDepth {
+  public:
+    explicit SampleDepth(Frame const& frame) noexcept
+        : eye_(math::to_float(frame.view.eye_m - frame.geometry->origin_m)), forward_(math::to_float(-frame.view.back)) {}
+    [[nodiscard]] float operator()(math::vec3 const& position) const noexcept { return glm::dot(position - eye_, forward_); }
+
+  private:
+    math::vec3 eye_;
+    math::vec3 forward_;
+};
+
+/// The lists that samples are shaded by, in a `Lighting`: `list_of_sample`, `list_cells`, `list_indices`.
+///
+/// expects: `begin_lighting` was called. `then` records what comes after the lists, into the same image.
+/// returns: the image, its counts and the stages that ran on the device; `stages` of the host come first.
+[[nodiscard]] Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages,
+                                                 std::function<void(ShadeListsStd const&)> const& then = {});
+
+/// Sets up the workspace, the G-buffer and the lights.
+[[nodiscard]] Lighting& begin_lighting(LightingRun const& on, Verbs& verbs);
+
+}  // namespace gnomon::pipeline

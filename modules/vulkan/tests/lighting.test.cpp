@@ -1,0 +1,61 @@
+// Many lights on the device: the CPU's image and the CPU's counts.
+
+#include "test_host.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/pipeline.hpp>
+#include <gnomon/raster/cpu_backend.hpp>
+#include <gnomon/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace gnomon;
+
+namespace {
+
+pipeline::LightingOutput lit(pipeline::LightingTechnique const& technique, pipeline::Frame const& frame,
+                             std::vector<pipeline::Setting> const& settings, backend::Backend& device) {
+    core::SerialExecutor serial;
+    pipeline::Workspace workspace;
+    auto const params = pipeline::make_params(technique, settings);
+    REQUIRE(params.has_value());
+    auto output = technique.run({frame, frame.scene->lights, *params, workspace, device, serial});
+    INFO((output ? std::string() : output.failure().message));
+    REQUIRE(output.has_value());
+    return *std::move(output);
+}
+
+}  // namespace
+
+TEST_CASE("lighting techniques give the CPU's image on a device, to the bit, and evaluate the same lights", "[vulkan][lighting]") {
+    auto const device = vulkan::test::Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::test::TestHost host(*device);
+    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
+    REQUIRE(gpu.has_value());
+    core::SerialExecutor serial;
+    raster::CpuBackend cpu(serial);
+    auto const scene = scene::make_procedural({.name = "atrium", .lights = "400"});
+    REQUIRE(scene.has_value());
+    scene::Geometry const geometry = scene::flatten(*scene);
+    auto const view = scene::make_view(scene->cameras.front(), {160, 90});
+    REQUIRE(view.has_value());
+    auto const frame = pipeline::make_frame(*scene, geometry, {*view, pipeline::sun({0.3, -1.0, 0.2}), false, nullptr}, serial);
+    REQUIRE(frame.has_value());
+    for (std::string const format : {"f32", "f16"})
+        for (pipeline::LightingTechnique const& technique : pipeline::lighting_techniques()) {
+            CAPTURE(technique.name);
+            auto const ours = lit(technique, *frame, {{"gbuffer", format}}, cpu);
+            auto const theirs = lit(technique, *frame, {{"gbuffer", format}}, **gpu);
+            CHECK(ours.computations == theirs.computations);
+            REQUIRE(ours.radiance.size() == theirs.radiance.size());
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < ours.radiance.size(); ++i) differ += ours.radiance[i] != theirs.radiance[i] ? 1U : 0U;
+            CHECK(differ == 0);
+        }
+    CHECK(device->take_messages() == "");
+}
