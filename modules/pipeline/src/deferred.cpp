@@ -27,13 +27,25 @@ struct PixelRect {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Pixels whose centre may lie between two values across the window of `size` pixels from `low` to `high`.
-void span_of(double from, double to, double low, double high, std::int32_t size, std::uint32_t& first, std::uint32_t& count) {
-    double const scale = size / (high - low);
-    double const begin = std::clamp(std::floor((from - low) * scale - 1.0), 0.0, static_cast<double>(size));
-    double const end = std::clamp(std::ceil((to - low) * scale + 1.0), begin, static_cast<double>(size));
-    first = static_cast<std::uint32_t>(begin);
-    count = static_cast<std::uint32_t>(end - begin);
+/// An axis of the image: the window's ends, and how many pixels lie between them.
+struct ImageAxis {
+    double low;
+    double high;
+    std::int32_t size;
+};
+
+struct PixelSpan {
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+/// Pixels whose centre may lie between two values of the window, and one more on each side.
+PixelSpan span_of(ImageAxis const& axis, float from, float to) {
+    double const scale = axis.size / (axis.high - axis.low);
+    auto const size = static_cast<double>(axis.size);
+    double const begin = std::clamp(std::floor((static_cast<double>(from) - axis.low) * scale - 1.0), 0.0, size);
+    double const end = std::clamp(std::ceil((static_cast<double>(to) - axis.low) * scale + 1.0), begin, size);
+    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
 }
 
 PixelRect rect_of(Frame const& frame, lights::Light const& light) {
@@ -44,12 +56,11 @@ PixelRect rect_of(Frame const& frame, lights::Light const& light) {
     cull::ScreenBounds const bounds = frame.view.lens == math::Lens::orthographic
                                           ? cull::screen_bounds_orthographic(ball)
                                           : cull::screen_bounds(ball, static_cast<float>(frame.view.near_m));
-    PixelRect r;
-    if (bounds.empty()) return r;
+    if (bounds.empty()) return {};
     math::Window const& w = frame.view.window;
-    span_of(static_cast<double>(bounds.lo.x), static_cast<double>(bounds.hi.x), w.left, w.right, size.x, r.x, r.width);
-    span_of(static_cast<double>(bounds.lo.y), static_cast<double>(bounds.hi.y), -w.top, -w.bottom, size.y, r.y, r.height);
-    return r;
+    PixelSpan const x = span_of({w.left, w.right, size.x}, bounds.lo.x, bounds.hi.x);
+    PixelSpan const y = span_of({-w.top, -w.bottom, size.y}, bounds.lo.y, bounds.hi.y);
+    return {x.first, y.first, x.count, y.count};
 }
 
 Result<LightingOutput> run_deferred(LightingRun const& on, bool stencil) {
