@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,7 @@ pipeline::LightingOutput run(LitScene const& s, std::string const& name, std::ve
     return std::move(output).value();
 }
 
-/// Every third light becomes a spot, some wider than a right angle.
+/// Every third light becomes a spot, some wider than a right angle; the first shines without an end, the second is a sun.
 void mix(std::vector<scene::Light>& lights) {
     for (std::size_t i = 2; i < lights.size(); i += 3) {
         auto const turn = static_cast<double>(i);
@@ -100,6 +101,11 @@ void mix(std::vector<scene::Light>& lights) {
         lights[i].outer_cone_rad = 0.05F + 0.004F * static_cast<float>(i % 400);
         lights[i].inner_cone_rad = lights[i].outer_cone_rad * 0.5F;
     }
+    lights[0].range_m = std::numeric_limits<float>::infinity();
+    lights[0].intensity *= 0.1F;
+    lights[1].kind = scene::LightKind::directional;
+    lights[1].direction = math::dvec3(0.1, -1.0, 0.3);
+    lights[1].intensity = 0.05F;
 }
 
 void check_techniques(LitScene const& s, pipeline::GBufferFormat format) {
