@@ -1,5 +1,6 @@
 #include "../../cull/tests/light_scenes.hpp"
 
+#include <gnomon/check/allocations.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/planes.hpp>
@@ -7,6 +8,8 @@
 #include <vector>
 
 using namespace gnomon;
+
+GNOMON_COUNT_ALLOCATIONS;
 
 namespace {
 
@@ -101,4 +104,25 @@ TEST_CASE("bad lights are left out and counted, and change nothing for the other
     CHECK(b.report.lights == lights::Report{16, 9, 0});
     CHECK(a.cells == b.cells);
     CHECK(a.indices == b.indices);
+}
+
+TEST_CASE("assignment allocates nothing after the first frame", "[lights]") {
+    test::YardGrid const yard;
+    cull::RowGrid const grid = cull::make_row_grid(yard.view());
+    auto list = yard_lights(test::light_scenes[2], 100, true);
+    list.push_back(lights::make_directional());
+    lights::Workspace work;
+    lights::BitPlanes planes;
+    std::vector<lights::Cell> cells(grid.clusters());
+    std::vector<std::uint16_t> indices;
+    auto const frame = [&] {
+        lights::assign_planes(grid, list, {}, work, planes);
+        auto const report = lights::count_lists(grid, list, {}, work, cells);
+        if (indices.size() < report.written) indices.resize(report.written);
+        lights::fill_lists<std::uint16_t>(work, indices);
+    };
+    frame();
+    std::uint64_t const before = check::allocations_made();
+    frame();
+    CHECK(check::allocations_made() == before);
 }
