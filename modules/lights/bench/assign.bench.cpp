@@ -64,9 +64,7 @@ void lists_fill_only(benchmark::State& state) {
     std::vector<std::uint16_t> indices(4'000'000);
     double const pairs = static_cast<double>(lights::count_lists(setup.grid, setup.lights, {}, work, cells).written);
     for ([[maybe_unused]] auto _ : state) {
-        work.cursors.assign(setup.grid.clusters(), 0);
-        lights::detail::count_runs({work.runs.data(), work.run_count}, work.cursors.data());
-        benchmark::DoNotOptimize(lights::detail::make_cells(work.cursors, cells));
+        benchmark::DoNotOptimize(lights::detail::lay_out(work, cells));
         lights::fill_lists<std::uint16_t>(work, indices);
         benchmark::DoNotOptimize(indices.data());
     }

@@ -97,11 +97,8 @@ namespace detail {
         }
     std::sort(work.runs.begin(), work.runs.begin() + static_cast<std::ptrdiff_t>(work.run_count),
               [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.cluster < b.cluster; });
-    for (std::size_t i = 0; i < work.run_count; ++i) report.needed += work.runs[i].count;
-    report.written = report.needed;
-    work.cursors.assign(grid.clusters(), 0);
-    detail::count_runs({work.runs.data(), work.run_count}, work.cursors.data());
-    (void)detail::make_cells(work.cursors, cells);
+    report.needed = report.written = detail::lay_out(work, cells);
+    GNOMON_EXPECT(report.needed <= 0xFFFFFFFFU);
     return report;
 }
 

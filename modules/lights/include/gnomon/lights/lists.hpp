@@ -51,14 +51,21 @@ inline void count_runs(std::span<Run const> runs, std::uint32_t* counts) noexcep
 
 /// Cells out of counts, whose list becomes that of the offsets. returns: the sum.
 inline std::uint64_t make_cells(std::span<std::uint32_t> counts, std::span<Cell> cells) noexcept {
-    std::uint32_t sum = 0;
+    std::uint64_t sum = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         std::uint32_t const count = counts[i];
-        cells[i] = {sum, count};
-        counts[i] = sum;
+        cells[i] = {static_cast<std::uint32_t>(sum), count};
+        counts[i] = static_cast<std::uint32_t>(sum);
         sum += count;
     }
     return sum;
+}
+
+/// Cells and cursors out of runs. returns: the sum of the counts; above 2^32 - 1 the offsets are no use.
+inline std::uint64_t lay_out(Workspace& work, std::span<Cell> cells) {
+    work.cursors.assign(cells.size(), 0);
+    count_runs({work.runs.data(), work.run_count}, work.cursors.data());
+    return make_cells(work.cursors, cells);
 }
 
 /// Takes the runs of the least important lights out until the rest fit. Puts the lights, least important first, of the
@@ -104,13 +111,12 @@ inline std::uint32_t leave_out(std::span<Light const> lights, std::uint64_t need
     ListsReport report;
     report.lights = admit(lights, config.layers, work);
     detail::find_runs(grid, lights, work, config.lanes);
-    for (std::size_t i = 0; i < work.run_count; ++i) report.needed += work.runs[i].count;
-    report.written = report.needed;
-    if (report.needed > config.capacity)
-        report.left_out = detail::leave_out(lights, report.needed, config.capacity, work, report.written);
-    work.cursors.assign(grid.clusters(), 0);
-    detail::count_runs({work.runs.data(), work.run_count}, work.cursors.data());
-    (void)detail::make_cells(work.cursors, cells);
+    report.needed = report.written = detail::lay_out(work, cells);
+    std::uint64_t const capacity = std::min<std::uint64_t>(config.capacity, 0xFFFFFFFFU);
+    if (report.needed > capacity) {
+        report.left_out = detail::leave_out(lights, report.needed, capacity, work, report.written);
+        (void)detail::lay_out(work, cells);
+    }
     return report;
 }
 
