@@ -32,7 +32,7 @@ void main() {
     vec3 eye = vec3(c.eye_x, c.eye_y, c.eye_z);
     precise vec3 sight = eye - position;
     vec3 to_eye = c.orthographic != 0u ? eye : gn_unit_or_up(sight);
-    bool evaluated = c.stencil != 0u ? gn_reach(light, position).within : gn_covered(light, position, to_eye);
+    bool evaluated = c.stencil != 0u ? gn_see_light(light, position).within : gn_covered(light, position, to_eye);
     if (!evaluated) return;
     precise vec3 sum = vec3(radiance[3u * i], radiance[3u * i + 1u], radiance[3u * i + 2u]);
     sum += gn_shade(light, surface_of(i, c.halves != 0u, eye, c.orthographic != 0u));

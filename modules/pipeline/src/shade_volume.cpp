@@ -21,7 +21,7 @@ struct Volume {
 
     [[nodiscard]] bool evaluates(std::size_t i) const noexcept {
         formula::Vec3<float> const p(from.samples[i].position);
-        if (stencil) return gn_reach(light, p).within.v;
+        if (stencil) return gn_see_light(light, p).within.v;
         formula::Vec3<float> const eye(from.eye);
         return gn_covered(light, p, from.orthographic ? eye : gn_unit_or_up(eye - p)).v;
     }

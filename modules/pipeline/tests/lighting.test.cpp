@@ -67,7 +67,7 @@ struct Reference {
             formula::Vec3<float> sum(t.emissive[0], t.emissive[1], t.emissive[2]);
             for (lights::ShadedLight const& light : prepared.shaded) {
                 sum = sum + gn_shade(light, surface);
-                reaching += gn_reach(light, p).within.v ? 1U : 0U;
+                reaching += gn_see_light(light, p).within.v ? 1U : 0U;
             }
             radiance.push_back(math::vec3(sum));
         }

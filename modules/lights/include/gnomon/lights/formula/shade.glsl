@@ -64,13 +64,13 @@ GN_FN GN_FLOAT gn_gloss(GN_FLOAT x, GN_FLOAT shininess) {
 }
 
 /// A light seen from a surface.
-GN_STRUCT(GnReach) {
+GN_STRUCT(GnSeenLight) {
     GN_VEC3 to_light;   // of length 1
     GN_FLOAT strength;  // of the light before the surface's angle; 0 beyond range and cone
     GN_BOOL within;     // the range, whatever the cone
 };
 
-GN_FN GN_TYPE(GnReach) gn_reach(GN_IN(GnShadedLight) light, GN_VEC3 position) {
+GN_FN GN_TYPE(GnSeenLight) gn_see_light(GN_IN(GnShadedLight) light, GN_VEC3 position) {
     GN_VEC3 target = GN_VEC3(light.position);
     bool directional = light.directional != 0u;
     GN_PRECISE GN_VEC3 way = target - position;
@@ -85,7 +85,7 @@ GN_FN GN_TYPE(GnReach) gn_reach(GN_IN(GnShadedLight) light, GN_VEC3 position) {
     GN_PRECISE GN_FLOAT edge = (cosine - light.cos_outer) * light.inverse_span;
     GN_FLOAT inside = gn_min(gn_max(edge, GN_FLOAT(0.0)), GN_FLOAT(1.0));
     GN_PRECISE GN_FLOAT in_cone = strength * (inside * inside);
-    GN_TYPE(GnReach) r;
+    GN_TYPE(GnSeenLight) r;
     r.to_light.x = directional ? target.x : to.x;
     r.to_light.y = directional ? target.y : to.y;
     r.to_light.z = directional ? target.z : to.z;
@@ -109,10 +109,10 @@ GN_FN GN_BOOL gn_covered(GN_IN(GnShadedLight) light, GN_VEC3 position, GN_VEC3 t
 
 /// What the light adds to the surface's radiance toward the eye.
 GN_FN GN_VEC3 gn_shade(GN_IN(GnShadedLight) light, GN_IN(GN_TYPE(GnSurface)) surface) {
-    GN_TYPE(GnReach) reach = gn_reach(light, surface.position);
-    GN_FLOAT facing = gn_max(gn_dot(surface.normal, reach.to_light), GN_FLOAT(0.0));
-    GN_PRECISE GN_FLOAT strength = reach.strength * facing;
-    GN_PRECISE GN_VEC3 between = reach.to_light + surface.to_eye;
+    GN_TYPE(GnSeenLight) seen = gn_see_light(light, surface.position);
+    GN_FLOAT facing = gn_max(gn_dot(surface.normal, seen.to_light), GN_FLOAT(0.0));
+    GN_PRECISE GN_FLOAT strength = seen.strength * facing;
+    GN_PRECISE GN_VEC3 between = seen.to_light + surface.to_eye;
     GN_FLOAT facing_half = gn_max(gn_dot(surface.normal, gn_unit_or_up(between)), GN_FLOAT(0.0));
     GN_FLOAT gloss = gn_gloss(gn_min(facing_half, GN_FLOAT(1.0)), surface.shininess);
     GN_PRECISE GN_VEC3 reflected = surface.diffuse + surface.specular * gloss;
