@@ -160,6 +160,20 @@ TEST_CASE("a formula file has a guard for two languages", "[house]") {
     CHECK(findings("#pragma once\n") == 3);
 }
 
+TEST_CASE("no two formula files declare a type of the same name", "[house]") {
+    house::Tree tree = {{"modules/a/include/gnomon/a/formula/x.glsl", "struct GnX {\n};\nGN_STRUCT(GnY) {\n};\n"},
+                        {"modules/b/include/gnomon/b/formula/y.glsl", "struct GnZ {\n};\n"},
+                        {"modules/b/shaders/z.glsl", "struct GnX {\n};\n"}};
+    auto const findings = [&] {
+        std::vector<Finding> found;
+        house::check_formula_types(tree, found);
+        return found.size();
+    };
+    CHECK(findings() == 0);
+    tree["modules/b/include/gnomon/b/formula/y.glsl"] += "GN_STRUCT(GnX) {\n};\nstruct GnY {\n};\n";
+    CHECK(findings() == 2);
+}
+
 TEST_CASE("arithmetic that a driver may fuse is found in SPIR-V", "[house]") {
     // %4 = OpFMul %1 %2 %3, with and without OpDecorate %4 NoContraction; %5 = OpExtInst %1 %9 Fma.
     std::vector<std::uint32_t> words = {0x07230203, 0x10000, 0, 6, 0, (5U << 16U) | 133, 1, 4, 2, 3};

@@ -50,6 +50,22 @@ inline void check_formula_start(std::string const& path, std::string const& text
     if (text.find("#pragma once") != std::string::npos) findings.push_back({path, 0, "has a #pragma once, which GLSL has not"});
 }
 
+/// Types of formula files share one namespace in C++ and one in a shader: no two files may declare the same.
+inline void check_formula_types(Tree const& tree, std::vector<Finding>& findings) {
+    std::map<std::string, std::string> declared_in;
+    for (auto const& [path, text] : tree) {
+        if (!path.ends_with(".glsl") || path.find("/include/") == std::string::npos) continue;
+        for (std::string const& line : split(text, '\n')) {
+            std::size_t const begin = line.starts_with("GN_STRUCT(") ? 10 : line.starts_with("struct Gn") ? 7 : 0;
+            std::size_t end = begin;
+            while (end < line.size() && is_word(line[end])) ++end;
+            if (begin == 0 || end == begin) continue;
+            auto const [at, fresh] = declared_in.emplace(line.substr(begin, end - begin), path);
+            if (!fresh) findings.push_back({path, 0, "declares " + at->first + ", as " + at->second + " does: give it a name of its own"});
+        }
+    }
+}
+
 inline bool is_umbrella(std::string const& header) {
     return header.starts_with("gnomon/") && std::count(header.begin(), header.end(), '/') == 1;
 }
@@ -72,6 +88,7 @@ inline std::vector<Finding> check_layout(Tree const& tree, std::set<std::string>
     std::vector<Finding> findings;
     check_top_level(top, findings);
     check_module_parts(tree, findings);
+    check_formula_types(tree, findings);
     for (auto const& [path, text] : tree) {
         auto const steps = split(path, '/');
         if (path.ends_with(".hpp") && steps[0] == "modules") check_header_start(path, text, findings);

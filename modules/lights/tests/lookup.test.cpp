@@ -14,7 +14,7 @@ TEST_CASE("a shader's lookup finds the words and indices that the assignment wro
     lights::Workspace work;
     lights::BitPlanes planes;
     lights::assign_planes(grid, list, {}, work, planes);
-    formula::GnGrid const shader{grid.columns, grid.rows, grid.slices};
+    formula::GnClusterCounts const shader{grid.columns, grid.rows, grid.slices};
     using U = formula::Uint<float>;
     for (std::uint32_t k = 0; k < grid.slices; ++k)
         for (std::uint32_t j = 0; j < grid.rows; ++j)

@@ -23,14 +23,14 @@
 
 GN_BEGIN
 
-struct GnGrid {
+struct GnClusterCounts {
     uint columns;
     uint rows;
     uint slices;
 };
 
 /// The dense index of a cluster: columns run fastest, then rows, then slices.
-GN_FN GN_UINT gn_cluster_index(GN_IN(GnGrid) grid, GN_UINT column, GN_UINT row, GN_UINT slice) {
+GN_FN GN_UINT gn_cluster_index(GN_IN(GnClusterCounts) grid, GN_UINT column, GN_UINT row, GN_UINT slice) {
     return (slice * GN_UINT(grid.rows) + row) * GN_UINT(grid.columns) + column;
 }
 
@@ -47,7 +47,7 @@ GN_END
 #ifdef GN_SLICE_DEPTH
 
 /// The slice of a depth: the last whose near plane is not beyond it; 0 before the first, and for NaN.
-uint gn_slice_at(GnGrid grid, float depth_m) {
+uint gn_slice_at(GnClusterCounts grid, float depth_m) {
     uint first = 0u;
     for (uint count = grid.slices; count > 1u;) {
         uint upper = count / 2u;
