@@ -1,7 +1,8 @@
 # What every public header must pass, beside the module's own tests:
-#   - it compiles alone, and twice in one unit                        NAME_headers (an object per header)
-#   - all of them twice in one program                                NAME_two_units, run as test `NAME.two-units`
-#   - floors 0-1: without exceptions and RTTI, and under each GLM configuration macro that changes types or conventions
+#   - it compiles alone, and twice in one unit                        NAME_headers (an object per header, `detail` apart)
+#   - all of all modules twice in one program                         header_units, run as test `house.two-units`
+#   - floors 0-1, all in one unit each: without exceptions and RTTI, and under each GLM configuration macro that changes
+#     types or conventions                                            header_matrix
 #   - floors 0-1: Clang's front end, where the compiler is GCC and Clang 16 or later is installed
 #   - a formula file is C++ and GLSL, alone: glslc reads it too, where it is installed, and its SPIR-V is kept in
 #     BUILD/formulas for the test `house.formulas`
@@ -64,17 +65,16 @@ endmacro()
 macro(_gnomon_header_checks)
   _gnomon_split_headers()
   _gnomon_formula_checks()
-  if(headers OR adapters)
+  set(alone ${headers} ${adapters})
+  list(FILTER alone EXCLUDE REGEX "/detail/")
+  if(alone)
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/header_checks")
     set(units "")
-    foreach(header IN LISTS headers adapters)
+    foreach(header IN LISTS alone)
       string(MAKE_C_IDENTIFIER "${header}" id)
       _gnomon_unit("${folder}/${id}.cpp" "" "${header}")
       list(APPEND units "${folder}/${id}.cpp")
     endforeach()
-    if(floor LESS 2 AND headers)
-      _gnomon_matrix_units()
-    endif()
     add_library(${name}_headers OBJECT ${units})
     _gnomon_link_tools(${name}_headers)
     gnomon_use(${name}_headers PRIVATE ${adapter_packages})
@@ -83,11 +83,10 @@ macro(_gnomon_header_checks)
     endforeach()
     target_compile_options(${name}_headers PRIVATE -O0)
   endif()
-  if(headers)
-    _gnomon_two_units()
-    if(GNOMON_CLANG AND floor LESS 2)
-      _gnomon_clang_check()
-    endif()
+  set_property(GLOBAL APPEND PROPERTY GNOMON_CHECKED_MODULES gnomon::${name})
+  set_property(GLOBAL APPEND PROPERTY GNOMON_CHECKED_HEADERS ${headers})
+  if(floor LESS 2)
+    set_property(GLOBAL APPEND PROPERTY GNOMON_CHECKED_ONLY_HEADERS ${headers})
   endif()
 endmacro()
 
@@ -152,44 +151,62 @@ macro(_gnomon_formula_checks)
   endif()
 endmacro()
 
+# gnomon_joint_header_checks(): what is checked of all modules' headers at once. Called once, behind the modules.
+function(gnomon_joint_header_checks)
+  get_property(modules GLOBAL PROPERTY GNOMON_CHECKED_MODULES)
+  get_property(headers GLOBAL PROPERTY GNOMON_CHECKED_HEADERS)
+  get_property(header_only GLOBAL PROPERTY GNOMON_CHECKED_ONLY_HEADERS)
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/header_checks")
+  _gnomon_two_units()
+  _gnomon_matrix_units()
+  if(GNOMON_CLANG)
+    _gnomon_clang_check()
+  endif()
+endfunction()
+
 macro(_gnomon_matrix_units)
+  set(units "")
   set(row 0)
   foreach(defines IN LISTS GNOMON_GLM_MATRIX)
     math(EXPR row "${row} + 1")
-    _gnomon_unit("${folder}/glm_matrix_${row}.cpp" "${defines}" ${headers})
+    _gnomon_unit("${folder}/glm_matrix_${row}.cpp" "${defines}" ${header_only})
     list(APPEND units "${folder}/glm_matrix_${row}.cpp")
     if(defines MATCHES "SIZE_T_LENGTH") # an int as an index is then a conversion, and no more than that
       set_source_files_properties("${folder}/glm_matrix_${row}.cpp" PROPERTIES COMPILE_OPTIONS -Wno-sign-conversion)
     endif()
   endforeach()
-  _gnomon_unit("${folder}/no_exceptions.cpp" "" ${headers})
+  _gnomon_unit("${folder}/no_exceptions.cpp" "" ${header_only})
   set_source_files_properties("${folder}/no_exceptions.cpp" PROPERTIES COMPILE_OPTIONS "-fno-exceptions;-fno-rtti")
-  list(APPEND units "${folder}/no_exceptions.cpp")
+  add_library(header_matrix OBJECT ${units} "${folder}/no_exceptions.cpp")
+  gnomon_own_flags(header_matrix)
+  target_compile_options(header_matrix PRIVATE -O0)
+  target_link_libraries(header_matrix PRIVATE ${modules})
 endmacro()
 
 macro(_gnomon_two_units)
   _gnomon_unit("${folder}/unit_a.cpp" "" ${headers})
   _gnomon_unit("${folder}/unit_b.cpp" "" ${headers})
   file(CONFIGURE OUTPUT "${folder}/unit_main.cpp" CONTENT "int main() { return 0; }\n")
-  add_executable(${name}_two_units "${folder}/unit_a.cpp" "${folder}/unit_b.cpp" "${folder}/unit_main.cpp")
-  gnomon_own_flags(${name}_two_units)
-  target_compile_options(${name}_two_units PRIVATE -O0)
+  add_executable(header_units "${folder}/unit_a.cpp" "${folder}/unit_b.cpp" "${folder}/unit_main.cpp")
+  gnomon_own_flags(header_units)
+  target_compile_options(header_units PRIVATE -O0)
   # Only what a user gets: no further packages.
-  target_link_libraries(${name}_two_units PRIVATE gnomon::${name})
-  add_test(NAME ${name}.two-units COMMAND ${name}_two_units)
-  set_tests_properties(${name}.two-units PROPERTIES LABELS "house")
+  target_link_libraries(header_units PRIVATE ${modules})
+  add_test(NAME house.two-units COMMAND header_units)
+  set_tests_properties(house.two-units PROPERTIES LABELS "house")
 endmacro()
 
 macro(_gnomon_clang_check)
+  _gnomon_unit("${folder}/unit_clang.cpp" "" ${header_only})
   file(GLOB_RECURSE all_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/modules/*.hpp" "${PROJECT_SOURCE_DIR}/modules/*.glsl")
-  set(includes "$<TARGET_PROPERTY:${name}_two_units,INCLUDE_DIRECTORIES>")
+  set(includes "$<TARGET_PROPERTY:header_units,INCLUDE_DIRECTORIES>")
   set(include_flags "$<$<BOOL:${includes}>:-I$<JOIN:${includes},;-I>>")
   set(syntax "${GNOMON_CLANG}" -std=c++20 -fsyntax-only ${GNOMON_WARNINGS} ${GNOMON_FLOAT_FLAGS} -Werror)
   add_custom_command(OUTPUT "${folder}/clang.stamp"
-    COMMAND ${syntax} "${include_flags}" "${folder}/unit_a.cpp"
-    COMMAND ${syntax} "${include_flags}" -fno-exceptions -fno-rtti "${folder}/unit_a.cpp"
+    COMMAND ${syntax} "${include_flags}" "${folder}/unit_clang.cpp"
+    COMMAND ${syntax} "${include_flags}" -fno-exceptions -fno-rtti "${folder}/unit_clang.cpp"
     COMMAND ${CMAKE_COMMAND} -E touch "${folder}/clang.stamp"
-    DEPENDS ${all_headers} "${folder}/unit_a.cpp"
-    COMMENT "Clang reads the headers of ${name}" COMMAND_EXPAND_LISTS VERBATIM)
-  add_custom_target(${name}_clang ALL DEPENDS "${folder}/clang.stamp")
+    DEPENDS ${all_headers} "${folder}/unit_clang.cpp"
+    COMMENT "Clang reads the headers" COMMAND_EXPAND_LISTS VERBATIM)
+  add_custom_target(header_clang ALL DEPENDS "${folder}/clang.stamp")
 endmacro()

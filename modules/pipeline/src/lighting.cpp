@@ -41,14 +41,15 @@ lights::ShadedLight shaded_light(Light const& light, math::vec3 const& position)
 /// apex moved back until the cone's sides are `rounding` farther out.
 lights::Light culled_light(math::View const& view, Light const& light, float rounding) noexcept {
     if (light.kind == LightKind::directional || !math::is_finite(light.range_m)) return lights::make_directional();
-    math::vec3 const center = cluster::culling_position(view, light.position_m);
+    math::vec3 const nowhere(0.0F);  // `place` says where
     float const range = light.range_m * (1.0F + 0x1p-20F) + rounding;
-    if (light.kind == LightKind::point) return lights::make_point(center, range);
-    math::dvec3 const d = glm::normalize(light.direction);
-    math::vec3 const axis = math::to_float(math::dvec3(glm::dot(view.right, d), -glm::dot(view.up, d), -glm::dot(view.back, d)));
+    if (light.kind == LightKind::point) return lights::place({light.position_m, lights::make_point(nowhere, range)}, view);
     float const half = std::min(light.outer_cone_rad + 1e-3F, 3.14159274F);
     float const back = 2.0F * rounding / std::max(std::sin(std::min(half, 1.5F)), 1e-3F);
-    return lights::make_spot(center - axis * back, range + back, axis, half);
+    lights::Light const spot = lights::make_spot(nowhere, range + back, math::to_float(light.direction), half);
+    lights::Light placed = lights::place({light.position_m, spot}, view);
+    placed.center = placed.center - placed.axis * back;
+    return placed;
 }
 
 std::uint64_t sum_of(std::span<std::uint32_t const> numbers) noexcept {
