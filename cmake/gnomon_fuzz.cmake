@@ -1,11 +1,11 @@
 # Fuzz targets: a module's fuzz/X.fuzz.cpp (see gnomon/check/fuzz.hpp) becomes
 #   - NAME_X_replay  in every build: runs the seeds and a fixed number of their mutations; test `NAME.fuzz-X`
-#   - NAME_X_fuzz    with GNOMON_FUZZ (preset `fuzz`): libFuzzer, with a short run from the seeds as test `NAME.libfuzzer-X`
+#   - NAME_X_fuzz    with GNOMON_FUZZ (preset `asan-ubsan`): libFuzzer, with a short run from the seeds as test `NAME.libfuzzer-X`
 #   - fuzzers        builds all of them
 # A longer run, from a corpus that the replay program writes:
-#   cmake --preset fuzz && cmake --build --preset fuzz
-#   mkdir -p corpus && build/fuzz/bin/raster_pass_replay --write-corpus corpus
-#   build/fuzz/bin/raster_pass_fuzz -max_total_time=600 corpus
+#   cmake --preset asan-ubsan && cmake --build --preset asan-ubsan --target fuzzers
+#   mkdir -p corpus && build/asan-ubsan/bin/raster_pass_replay --write-corpus corpus
+#   build/asan-ubsan/bin/raster_pass_fuzz -max_total_time=600 corpus
 # A target may be given its own options by a list: set(GNOMON_FUZZ_OPTIONS_scene_load -rss_limit_mb=512) before gnomon_module.
 
 if(GNOMON_FUZZ AND NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
