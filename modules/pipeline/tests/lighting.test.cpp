@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -134,6 +135,22 @@ TEST_CASE("every lighting technique gives the image of all lights on all samples
     for (pipeline::GBufferFormat const format : {pipeline::GBufferFormat::f32, pipeline::GBufferFormat::f16}) check_techniques(s, format);
     mix(s.scene.lights);
     check_techniques(s, pipeline::GBufferFormat::f32);
+}
+
+TEST_CASE("clusters of the atrium with trees and 10,000 lights need at most 1.6 times the least lighting computations, tiles far more",
+          "[pipeline][lighting][.full]") {
+    LitScene const s({.name = "atrium", .lights = "10000", .trees = true}, "still", {1920, 1080});
+    auto const least = count_of(run(s, "deferred-stencil"), "lighting_computations");
+    for (pipeline::LightingTechnique const& technique : pipeline::lighting_techniques()) {
+        auto const output = run(s, std::string(technique.name));
+        auto const computations = count_of(output, "lighting_computations");
+        std::printf("| `%s` | %llu | %.2f | %llu | %llu |\n", std::string(technique.name).c_str(),
+                    static_cast<unsigned long long>(computations), static_cast<double>(computations) / static_cast<double>(least),
+                    static_cast<unsigned long long>(count_of(output, "lists")),
+                    static_cast<unsigned long long>(count_of(output, "light_pairs")));
+        if (technique.name == "clustered-deferred") CHECK(computations * 10 <= least * 16);
+        if (technique.name == "tiled-deferred") CHECK(computations > least * 3);
+    }
 }
 
 TEST_CASE("three ways to find unique clusters shade with the same lists", "[pipeline][lighting]") {
