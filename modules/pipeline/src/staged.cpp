@@ -1,6 +1,6 @@
 #include "staged.hpp"
 
-#include "kernels.hpp"
+#include "shadow/kernels.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -6,7 +6,7 @@
 #include <gnomon/shadow/map_view.hpp>
 
 #include "detail.hpp"
-#include "lighting.hpp"
+#include "lighting/lighting.hpp"
 #include "staged.hpp"
 
 #include <cstdint>

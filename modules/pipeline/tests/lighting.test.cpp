@@ -5,8 +5,8 @@
 #include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/scene.hpp>
 
-#include "../src/lighting.hpp"
-#include "../src/shade_lanes.hpp"
+#include "../src/lighting/lighting.hpp"
+#include "../src/lighting/shade_lanes.hpp"
 
 #include <cmath>
 #include <cstdint>

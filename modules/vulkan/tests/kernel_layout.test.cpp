@@ -1,6 +1,6 @@
 // The constants of the pipeline's kernels: their shaders lay them out as their C++ structs do.
 
-#include "../../pipeline/src/kernels.hpp"
+#include "../../pipeline/src/shadow/kernels.hpp"
 
 #include <gnomon/check/check.hpp>
 #include <gnomon/vulkan/spirv.hpp>

@@ -1,8 +1,8 @@
 // The technique `tiled-deferred`: lights per tile, culled by each tile's range of depths. [Olsson 2014, Paper I, 2 and 6.3]
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "lighting.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <gnomon/cull/depth_range.hpp>
 #include <gnomon/cull/rows.hpp>

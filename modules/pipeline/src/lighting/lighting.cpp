@@ -1,8 +1,8 @@
 #include "lighting.hpp"
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "light_kernels.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <algorithm>
 #include <array>

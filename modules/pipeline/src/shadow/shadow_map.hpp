@@ -4,9 +4,9 @@
 #include <gnomon/backend/pass.hpp>
 #include <gnomon/shadow/lookup.hpp>
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "kernels.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <cstddef>
 #include <cstdint>

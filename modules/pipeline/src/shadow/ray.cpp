@@ -1,9 +1,9 @@
 // The technique `ray`: the exact trace, timed like any other, and what the measures ask the truth.
 
-#include "detail.hpp"
-#include "frame_state.hpp"
+#include "../detail.hpp"
+#include "../frame_state.hpp"
 #include "kernels.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <gnomon/pipeline/measures.hpp>
 

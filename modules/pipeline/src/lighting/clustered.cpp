@@ -1,8 +1,8 @@
 // The technique `clustered-deferred`: keys, unique clusters, lights per cluster, shading. [Olsson 2014, Paper II, 3]
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "lighting.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <gnomon/cull/rows.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <shaders/shade_lists_comp.hpp>
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "light_kernels.hpp"
 #include "shade_lanes.hpp"
 

@@ -3,8 +3,8 @@
 #include <gnomon/lights/shade.hpp>
 #include <gnomon/math/half.hpp>
 
-#include "detail.hpp"
-#include "palette.hpp"
+#include "../detail.hpp"
+#include "../palette.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <gnomon/pipeline/lighting.hpp>
 
-#include "tone.hpp"
+#include "../tone.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 #include "gbuffer.hpp"
 #include "light_kernels.hpp"
-#include "staged.hpp"
+#include "../staged.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,10 +1,10 @@
 // The techniques `deferred` and `deferred-stencil`: each light in turn, on the pixels that its volume covers.
 // [Olsson 2014, Paper I, 1.1, 8; Paper II, 4: its "Deferred" is the one with the stencil]
 
-#include "detail.hpp"
+#include "../detail.hpp"
 #include "light_kernels.hpp"
 #include "lighting.hpp"
-#include "workspace.hpp"
+#include "../workspace.hpp"
 
 #include <gnomon/cull/screen_bounds.hpp>
 
