@@ -26,20 +26,6 @@ std::array<ParamInfo, 3> const& clustered_params() noexcept {
 
 using Layout = cluster::KeyLayout<std::uint32_t>;
 
-/// A grid of cubical clusters as deep as the samples go.
-Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
-    SampleDepth const depth_of(on.frame);
-    double deepest = on.frame.view.near_m;
-    for (math::vec3 const& p : on.frame.samples.position) deepest = std::max(deepest, static_cast<double>(depth_of(p)));
-    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
-    double const end = std::max(deepest, on.frame.view.near_m + 1e-3 * (1.0 + std::abs(on.frame.view.near_m)));
-    auto slices = cluster::make_cubical_slices(on.frame.view, tile, end);
-    if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
-    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
-    if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
-    return std::move(grid).value();
-}
-
 void find_keys(LightingRun const& on, cluster::Grid const& grid, Layout const& layout, std::vector<std::uint32_t>& keys) {
     keys.resize(on.frame.samples.size());
     SampleDepth const depth_of(on.frame);
@@ -102,6 +88,19 @@ Result<LightingOutput> run_clustered(LightingRun const& on) {
 }
 
 }  // namespace
+
+Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
+    SampleDepth const depth_of(on.frame);
+    double deepest = on.frame.view.near_m;
+    for (math::vec3 const& p : on.frame.samples.position) deepest = std::max(deepest, static_cast<double>(depth_of(p)));
+    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
+    double const end = std::max(deepest, on.frame.view.near_m + 1e-3 * (1.0 + std::abs(on.frame.view.near_m)));
+    auto slices = cluster::make_cubical_slices(on.frame.view, tile, end);
+    if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
+    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
+    if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
+    return std::move(grid).value();
+}
 
 LightingTechnique clustered_deferred_technique() noexcept {
     return {"clustered-deferred", "lights assigned to clusters of tiles and exponential depth slices", clustered_params(), &run_clustered};

@@ -66,12 +66,19 @@ class SampleDepth {
   public:
     explicit SampleDepth(Frame const& frame) noexcept
         : eye_(math::to_float(frame.view.eye_m - frame.geometry->origin_m)), forward_(math::to_float(-frame.view.back)) {}
-    [[nodiscard]] float operator()(math::vec3 const& position) const noexcept { return glm::dot(position - eye_, forward_); }
+    [[nodiscard]] float operator()(math::vec3 const& position) const noexcept {
+        return formula::gn_along(formula::Vec3<float>(position - eye_), formula::Vec3<float>(forward_)).v;
+    }
+    [[nodiscard]] math::vec3 const& eye() const noexcept { return eye_; }
+    [[nodiscard]] math::vec3 const& forward() const noexcept { return forward_; }
 
   private:
     math::vec3 eye_;
     math::vec3 forward_;
 };
+
+/// A grid of cubical clusters as deep as the samples go.
+[[nodiscard]] Result<cluster::Grid> make_cluster_grid(LightingRun const& on);
 
 /// The lists that samples are shaded by, in a `Lighting`: `list_of_sample`, `list_cells`, `list_indices`.
 ///

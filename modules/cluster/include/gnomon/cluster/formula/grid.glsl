@@ -68,6 +68,12 @@ GN_FN GN_VEC3 gn_position_at(GN_IN(GnGrid) grid, GN_FLOAT u, GN_FLOAT v, GN_FLOA
     return GN_VEC3(x, y, depth);
 }
 
+/// How far an offset goes along a direction: of a sample's offset from the eye along the view's, its depth.
+GN_FN GN_FLOAT gn_along(GN_VEC3 offset, GN_VEC3 direction) {
+    GN_PRECISE GN_FLOAT sum = offset.x * direction.x + offset.y * direction.y + offset.z * direction.z;
+    return sum;
+}
+
 GN_END
 
 #endif  // GNOMON_CLUSTER_FORMULA_GRID_GLSL
