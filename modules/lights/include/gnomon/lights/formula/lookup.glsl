@@ -1,6 +1,6 @@
 // Looking lights up in a shader: which cluster a point is in, and the lights of it from bit planes or from lists.
 //
-// GLSL 4.50. Copy this file, or include it, and say first where the tables are:
+// GLSL 4.50. Copy this file, which needs no other (in C++ it does), or include it, and say first where the tables are:
 //
 //     layout(std430, set = 0, binding = 0) readonly buffer Planes { uint plane_words[]; };
 //     layout(std430, set = 0, binding = 1) readonly buffer Depths { float slice_depth_m[]; };
@@ -19,7 +19,17 @@
 #ifndef GNOMON_LIGHTS_FORMULA_LOOKUP_GLSL
 #define GNOMON_LIGHTS_FORMULA_LOOKUP_GLSL
 
+#ifdef __cplusplus
 #include <gnomon/math/formula.glsl>
+#elif !defined(GNOMON_MATH_FORMULA_GLSL)
+// The words of math/formula.glsl that stand below, as it has them.
+#define GN_BEGIN
+#define GN_END
+#define GN_FN
+#define GN_UINT uint
+#define GN_IN(type) type
+#define GN_SELECT(mask, yes, no) mix(no, yes, mask)
+#endif
 
 GN_BEGIN
 
