@@ -1,4 +1,4 @@
-#include "../../cull/tests/hard_pairs.hpp"
+#include "any_light.hpp"
 
 #include <gnomon/check/check.hpp>
 #include <gnomon/lights.hpp>
@@ -9,31 +9,12 @@ using namespace gnomon;
 
 namespace {
 
-lights::Light make_any_light(test::Draw& draw, test::HardGrid const& hard, cull::RowGrid const& grid) {
-    test::Cell const cell{draw.below(grid.columns), draw.below(grid.rows), draw.below(grid.slices)};
-    test::HardLight const l = test::make_hard_light(draw, hard, cell);
-    unsigned const kind = draw.below(16);
-    lights::Light light = lights::make_point(l.center, l.range);
-    if (kind == 0) light = lights::make_directional();
-    if (kind == 1) light = lights::make_box(l.center, l.half[0], l.half[1], l.half[2]);
-    if (kind == 2) light = lights::make_spot(l.center, l.range, l.axis, 2.0F);
-    if (kind == 3) light.range_m = -1.0F;
-    if (kind > 8) {
-        light.kind = lights::Kind::spot;
-        light.axis = l.axis;
-        light.cos_half = l.cosine;
-        light.sin_half = l.sine;
-    }
-    light.layers = draw.below(9) == 0 ? 2U : 5U;
-    return light;
-}
-
 /// returns: how many pairs there are.
 std::size_t compare_ways(test::Draw& draw) {
     test::HardGrid const hard = test::make_hard_grid(draw);
     cull::RowGrid const grid = cull::make_row_grid(hard.view());
     std::vector<lights::Light> list;
-    for (unsigned n = draw.below(70); n > 0; --n) list.push_back(make_any_light(draw, hard, grid));
+    for (unsigned n = draw.below(70); n > 0; --n) list.push_back(test::make_any_light(draw, hard, grid));
     std::uint32_t const layers = draw.below(2) != 0 ? ~0U : 4U;
     lights::Workspace work;
     lights::BitPlanes fast, slow;

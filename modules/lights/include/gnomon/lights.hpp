@@ -5,7 +5,9 @@
 #include <gnomon/lights/brute_force.hpp>
 #include <gnomon/lights/hierarchical.hpp>
 #include <gnomon/lights/light.hpp>
+#include <gnomon/lights/light_tree.hpp>
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/lights/place.hpp>
 #include <gnomon/lights/planes.hpp>
 #include <gnomon/lights/shade.hpp>
+#include <gnomon/lights/sparse.hpp>

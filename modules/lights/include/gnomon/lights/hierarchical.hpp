@@ -1,15 +1,17 @@
 #pragma once
-// Lists by asking a light tree for every row of clusters: the same lists as by scattering lights, in the same order.
+// Lists of every cluster of a grid by asking a light tree for each row: the same lists as by scattering lights, in the same
+// order. Where few of the clusters matter, ask for those alone: sparse.hpp.
 //
 // The tree only finds candidates, by balls that are wider than the predicate's; the predicate of `cull` decides.
 //
 // source: [Olsson 2014, Paper II, 3.3-3.4], with rows of clusters in the place of single ones
 
-#include <gnomon/bvh/build.hpp>
 #include <gnomon/bvh/query.hpp>
 #include <gnomon/core/contract.hpp>
 #include <gnomon/lights/admit.hpp>
 #include <gnomon/lights/detail/shapes.hpp>
+#include <gnomon/lights/detail/wide_box.hpp>
+#include <gnomon/lights/light_tree.hpp>
 #include <gnomon/lights/lists.hpp>
 #include <gnomon/math/bounds.hpp>
 
@@ -20,41 +22,6 @@
 #include <vector>
 
 namespace gnomon::lights {
-
-/// The lights of a frame in a tree. Directional lights are beside it: they are everywhere.
-struct LightTree {
-    bvh::Tree<bvh::Spheres, 32> tree;
-    std::vector<std::uint32_t> light;        ///< of each of the tree's ids: ascending indices of the caller's list
-    std::vector<std::uint32_t> directional;  ///< ascending
-    Report report;
-};
-
-/// cost: O(n log n); allocates.
-[[nodiscard]] inline LightTree build_light_tree(std::span<Light const> lights, std::uint32_t layers) {
-    LightTree t;
-    std::vector<float> x, y, depth, radius;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        Light const& l = lights[i];
-        if ((l.layers & layers) == 0) {
-            ++t.report.masked;
-        } else if (!is_sound(l)) {
-            ++t.report.bad;
-        } else if (l.kind == Kind::directional) {
-            t.directional.push_back(static_cast<std::uint32_t>(i));
-        } else {
-            float const r = bounding_radius_m(l);
-            x.push_back(l.center.x);
-            y.push_back(l.center.y);
-            depth.push_back(l.center.z);
-            // Twice the predicate's widening: its own rounding accepts nothing that this ball misses.
-            radius.push_back(r + 3.814697265625e-6F * (std::abs(l.center.x) + std::abs(l.center.y) + std::abs(l.center.z) + r));
-            t.light.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    t.report.taken = static_cast<std::uint32_t>(t.light.size() + t.directional.size());
-    t.tree = bvh::build_tree(bvh::Spheres{x, y, depth, radius});
-    return t;
-}
 
 namespace detail {
 
@@ -82,17 +49,17 @@ namespace detail {
     report.lights = tree.report;
     work.run_count = 0;
     detail::RunSink sink{work, grid.columns};
-    std::vector<std::uint32_t> found(tree.light.size());
+    std::vector<std::uint32_t> found(tree.tree.ids.size());
     for (std::uint32_t k = 0; k < grid.slices; ++k)
         for (std::uint32_t j = 0; j < grid.rows; ++j) {
-            bvh::BoxRegion const region{detail::row_box(grid, j, k)};
+            detail::WideBox const region{detail::row_box(grid, j, k)};
             std::size_t const hits = bvh::query(tree.tree.view(), region, found);
             auto const add = [&](std::uint32_t light) {
                 cull::Columns const columns = cull::columns_of(grid, detail::span_of(grid, lights[light], j, k));
                 sink.light(light);
                 if (!columns.empty()) sink.row(k * grid.rows + j, columns);
             };
-            for (std::size_t i = 0; i < hits; ++i) add(tree.light[found[i]]);
+            for (std::size_t i = 0; i < hits; ++i) add(found[i]);
             for (std::uint32_t const light : tree.directional) add(light);
         }
     std::sort(work.runs.begin(), work.runs.begin() + static_cast<std::ptrdiff_t>(work.run_count),

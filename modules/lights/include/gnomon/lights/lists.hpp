@@ -68,8 +68,24 @@ inline std::uint64_t lay_out(Workspace& work, std::span<Cell> cells) {
     return make_cells(work.cursors, cells);
 }
 
-/// Takes the runs of the least important lights out until the rest fit. Puts the lights, least important first, of the
-/// same importance the last first, to `work.pairs`. returns: how many were left out.
+/// Sorts `pairs` least important first, of the same importance the last light first, and says how many go until the others
+/// fit. `written` becomes what those have.
+inline std::uint32_t choose_left_out(std::vector<LightPairs>& pairs, std::uint64_t needed, std::uint64_t capacity,
+                                     std::uint64_t& written) {
+    std::sort(pairs.begin(), pairs.end(), [](LightPairs const& a, LightPairs const& b) {
+        bool const a_nan = a.importance != a.importance, b_nan = b.importance != b.importance;  // NaN: least of all
+        if (a_nan != b_nan) return a_nan;
+        if (!a_nan && a.importance != b.importance) return a.importance < b.importance;
+        return a.light > b.light;
+    });
+    written = needed;
+    std::uint32_t out = 0;
+    for (; written > capacity; ++out) written -= pairs[out].pairs;
+    return out;
+}
+
+/// Takes the runs of the least important lights out until the rest fit; `work.pairs` is as `choose_left_out` leaves it.
+/// returns: how many were left out.
 inline std::uint32_t leave_out(std::span<Light const> lights, std::uint64_t needed, std::uint64_t capacity, Workspace& work,
                                std::uint64_t& written) {
     work.pairs.clear();
@@ -79,15 +95,7 @@ inline std::uint32_t leave_out(std::span<Light const> lights, std::uint64_t need
             work.pairs.push_back({run.light, lights[run.light].importance, 0});
         work.pairs.back().pairs += run.count;
     }
-    std::sort(work.pairs.begin(), work.pairs.end(), [](LightPairs const& a, LightPairs const& b) {
-        bool const a_nan = a.importance != a.importance, b_nan = b.importance != b.importance;  // NaN: least of all
-        if (a_nan != b_nan) return a_nan;
-        if (!a_nan && a.importance != b.importance) return a.importance < b.importance;
-        return a.light > b.light;
-    });
-    written = needed;
-    std::uint32_t out = 0;
-    for (; written > capacity; ++out) written -= work.pairs[out].pairs;
+    std::uint32_t const out = choose_left_out(work.pairs, needed, capacity, written);
     std::vector<bool> gone(lights.size());
     for (std::uint32_t i = 0; i < out; ++i) gone[work.pairs[i].light] = true;
     std::size_t kept = 0;
