@@ -62,21 +62,22 @@ class Flight {
         if (!journey) return std::move(journey).failure();
         journey_ = *std::move(journey);
         move_to(stage_, options_.motion.time_s);
-        auto light = choose_light(options_.light, stage_, journey_.views.front());
+        auto light = choose_lighting(options_, plan_, stage_, journey_.views.front());
         if (!light) return std::move(light).failure();
         light_ = *std::move(light);
-        report_ = start_report(options_, stage_, light_);
+        report_ = start_report(options_, stage_);
+        report_.many_lights = lights_many(plan_);
+        report_.light = light_.text();
         report_.view = journey_.text + stage_.text();
         report_.frames = journey_.views.size();
         FilmConfig const film{report_.size_px, journey_.rate_hz};
         exact_ = std::make_unique<Film>(film);
-        requests_ = requests_of(plan_, backends_);
         for (std::size_t i = 0; i < plan_.size(); ++i) {
             films_.push_back({Film(film), Film(film)});
             workspaces_.push_back(std::make_unique<pipeline::Workspace>());
-            requests_[i].workspace = workspaces_.back().get();
             report_.runs.push_back(run_of(plan_[i], backends_));
         }
+        requests_.emplace(plan_, backends_, workspaces_);
         return core::Done{};
     }
 
@@ -86,20 +87,22 @@ class Flight {
         double const time_s = options_.motion.time_s + frame / journey_.rate_hz;
         bool const moved = stage_.moves() && frame > 0;
         if (moved) move_to(stage_, time_s);
-        if (light_.of_scene != scene::none)
-            light_.value = scene::posed_light(stage_.loaded.scene, stage_.pose, light_.of_scene);
-        pipeline::Shot const shot{journey_.views[static_cast<std::size_t>(frame)], light_.value, options_.truth,
-                                  frame_ && !moved ? &*frame_ : nullptr};
+        light_.move_to(stage_);
+        pipeline::Shot const shot{journey_.views[static_cast<std::size_t>(frame)], light_.for_frame(),
+                                  options_.truth && !report_.many_lights, frame_ && !moved ? &*frame_ : nullptr};
         auto next = pipeline::make_frame(stage_.loaded.scene, stage_.geometry, shot, executor_);
         if (!next) return exit_for(next.failure());
         frame_ = *std::move(next);
         pipeline::CompareConfig config;
         config.repeats = options_.repeats;
         config.images = made_.pictures || made_.films;
+        config.truth = options_.truth;
         config.shading.exposure = exposure_;
-        auto compared = pipeline::compare(*frame_, requests_, config, executor_);
-        if (!compared) return exit_for(compared.failure());
+        config.heat_most = report_.heat_most;
+        auto compared = requests_->compare(*frame_, light_, config, executor_);
+        if (!compared) return std::move(compared).failure();
         exposure_ = compared->exposure;  // One for the whole film: it must not flicker.
+        report_.heat_most = compared->heat_most;
         record(frame, time_s, *compared);
         return keep(frame, *compared);
     }
@@ -125,9 +128,13 @@ class Flight {
     [[nodiscard]] Bytes const& results() const noexcept { return results_; }
 
   private:
+    /// Wrong pixels need the truth; lighting computations do not.
+    [[nodiscard]] bool has_overlay() const noexcept { return options_.truth || report_.many_lights; }
+
     void record(int frame, double time_s, pipeline::Comparison const& compared) {
         report_.samples += compared.samples;
         report_.truly_lit += compared.truly_lit;
+        report_.reaching += compared.reaching;
         for (pipeline::StageTime const& stage : frame_->stages) {
             if (stage.name == "truth_trace") truth_ms_.push_back(stage.ms);
             // Taken over from the frame before, it costs nothing there; a frame of its own pays for it.
@@ -159,7 +166,8 @@ class Flight {
                 RunFilms& films = films_[job / 3];
                 if (job % 3 == 0 && made_.pictures) pngs[job / 3] = png_from(picture_of(run.lit));
                 if (job % 3 == 1 && made_.films) films.lit.add(picture_of(run.lit));
-                if (job % 3 == 2 && made_.films && options_.truth) films.wrong.add(thickened(picture_of(run.overlay)));
+                if (job % 3 == 2 && made_.films && has_overlay())
+                    films.wrong.add(report_.many_lights ? picture_of(run.overlay) : thickened(picture_of(run.overlay)));
             }
         });
         for (std::size_t i = 0; i < runs && made_.pictures; ++i)
@@ -182,9 +190,9 @@ class Flight {
         films.runs.resize(plan_.size());
         for (std::size_t i = 0; i < plan_.size(); ++i) {
             if (auto lit = write(films_[i].lit, plan_[i].slug + ".webp", films.runs[i].lit); !lit) return lit;
-            if (!options_.truth) continue;
-            if (auto wrong = write(films_[i].wrong, plan_[i].slug + ".wrong.webp", films.runs[i].marks); !wrong)
-                return wrong;
+            if (!has_overlay()) continue;
+            std::string const name = plan_[i].slug + (report_.many_lights ? ".lights.webp" : ".wrong.webp");
+            if (auto wrong = write(films_[i].wrong, name, films.runs[i].marks); !wrong) return wrong;
         }
         return core::Done{};
     }
@@ -197,10 +205,10 @@ class Flight {
     Backends backends_;
     Stage stage_;
     Journey journey_;
-    ChosenLight light_;
+    Lighting light_;
     std::optional<pipeline::Frame> frame_;
     std::vector<std::unique_ptr<pipeline::Workspace>> workspaces_;
-    std::vector<pipeline::RunRequest> requests_;
+    std::optional<Requests> requests_;
     std::vector<RunFilms> films_;
     std::unique_ptr<Film> exact_;
     float exposure_ = 0.0F;

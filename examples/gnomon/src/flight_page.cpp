@@ -1,6 +1,7 @@
 #include "flight_page.hpp"
 
 #include "frame_plot.hpp"
+#include "lights_parts.hpp"
 #include "plot.hpp"
 #include "table.hpp"
 
@@ -35,18 +36,26 @@ std::string key_html(Report const& report) {
 std::string plots_html(Report const& report) {
     std::string html = "<h2>Frame by frame</h2>\n" + key_html(report);
     html += plot_of(report, "ms", [](FrameRecord const& frame) { return frame.ms; });
-    if (report.has_truth)
+    if (report.many_lights)
+        html += plot_of(report, "millions of lighting computations", [](FrameRecord const& frame) {
+            return static_cast<double>(count_of(frame.counts, "lighting_computations").value_or(0)) * 1e-6;
+        });
+    if (report.has_truth && !report.many_lights)
         html += plot_of(report, "wrong samples, %",
                         [](FrameRecord const& frame) { return frame.error.wrong_fraction * 100.0; });
     return html;
 }
+
+/// Whether there are errors of shadows to show.
+bool shows_shadows(Report const& report) { return report.has_truth && !report.many_lights; }
 
 std::string frames_table_html(Report const& report) {
     std::string html = "<details><summary>every frame as a table</summary>\n<div class='wide'><table>\n<thead><tr>"
                        "<th>frame</th><th>time, s</th>";
     for (Run const& run : report.runs) {
         html += fmt::format("<th>{}<br>ms</th>", escaped(run.label));
-        if (report.has_truth) html += "<th>wrong, %</th><th>false-lit</th><th>false-shadow</th>";
+        if (report.many_lights) html += "<th>computations</th>";
+        if (shows_shadows(report)) html += "<th>wrong, %</th><th>false-lit</th><th>false-shadow</th>";
     }
     html += "</tr></thead>\n<tbody>\n";
     auto out = std::back_inserter(html);
@@ -56,7 +65,9 @@ std::string frames_table_html(Report const& report) {
         for (Run const& run : report.runs) {
             FrameRecord const& frame = run.frames[i];
             fmt::format_to(out, "<td>{}</td>", figures(frame.ms));
-            if (report.has_truth)
+            if (report.many_lights)
+                fmt::format_to(out, "<td>{}</td>", grouped(count_of(frame.counts, "lighting_computations").value_or(0)));
+            if (shows_shadows(report))
                 fmt::format_to(out, "<td>{}</td><td>{}</td><td>{}</td>", percent(frame.error.wrong_fraction),
                                grouped(frame.error.false_lit), grouped(frame.error.false_shadow));
         }
@@ -67,7 +78,8 @@ std::string frames_table_html(Report const& report) {
 
 std::string films_html(Report const& report, FlightFilms const& films) {
     std::string html = "<h2>Films</h2>\n";
-    if (report.has_truth) html += legend;
+    if (report.many_lights) html += heat_legend_html(report);
+    if (shows_shadows(report)) html += legend;
     html += "<div class='cards'>\n";
     for (std::size_t i = 0; i < report.runs.size(); ++i) html += card_html(report, report.runs[i], films.runs[i], i);
     return html + "</div>\n";
@@ -98,15 +110,17 @@ std::string flight_page_html(Report const& report, FlightFilms const& films) {
     html += verdict_html(report);
     html += "<div class='top'>";
     if (!films.exact.empty())
-        html += fmt::format("<figure>{}<figcaption>The path with exact shadows: the reference that every run is measured "
+        html += fmt::format("<figure>{1}<figcaption>The path with exact {0}: the reference that every run is measured "
                             "against.</figcaption></figure>\n",
-                            picture_html(films.exact, report.size_px, "The path with exact shadows"));
+                            report.many_lights ? "light" : "shadows", picture_html(films.exact, report.size_px, "The reference"));
     html += facts_html(report) + "</div>\n<h2>The runs</h2>\n";
-    if (report.has_truth) html += explanation;
+    if (report.many_lights) html += lights_explanation();
+    if (shows_shadows(report)) html += explanation;
     html += table_html(report);
-    html += fmt::format("<p class='soft'>Over {} frames: errors are sums, the time is the median frame's, an edge error's "
-                        "maximum is that of the worst frame. frames.csv beside this page has a line for each frame.</p>\n",
-                        grouped(report.frames));
+    html += fmt::format("<p class='soft'>Over {} frames: {}, the time is the median frame's{}. frames.csv beside this page has a "
+                        "line for each frame.</p>\n",
+                        grouped(report.frames), report.many_lights ? "counts are sums" : "errors are sums",
+                        report.many_lights ? "" : ", an edge error's maximum is that of the worst frame");
     html += plots_html(report) + frames_table_html(report);
     if (!films.runs.empty()) html += films_html(report, films);
     return html + page_foot(report);

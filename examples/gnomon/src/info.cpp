@@ -8,6 +8,7 @@
 #include "values.hpp"
 
 #include <gnomon/math/vec.hpp>
+#include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/pipeline/technique.hpp>
 
 #include <fmt/format.h>
@@ -26,14 +27,16 @@ std::string range_of(pipeline::ParamInfo const& param) {
     return fmt::format("{:g} to {:g}", param.min, param.max);
 }
 
-std::string techniques_text() {
+/// `kind` is what comes before the name.
+template <class Techniques>
+std::string techniques_text(std::string_view kind, Techniques const& techniques) {
     std::string text;
-    for (pipeline::Technique const& technique : pipeline::techniques()) {
+    for (auto const& technique : techniques) {
         std::vector<std::vector<std::string>> rows;
         for (pipeline::ParamInfo const& param : technique.params)
             rows.push_back({fmt::format("  {}.{}={}", technique.name, param.name, param.default_text), range_of(param),
                             std::string(param.unit), std::string(param.doc)});
-        text += fmt::format("\ntechnique {}: {}\n", technique.name, technique.summary);
+        text += fmt::format("\n{} {}: {}\n", kind, technique.name, technique.summary);
         text += rows.empty() ? "  no parameters\n" : aligned(rows, {.left = 4});
     }
     return text;
@@ -88,7 +91,8 @@ Outcome<core::Done> show_info() {
         "packages   {}\n"
         "backends   cpu, {}\n\n{}",
         GNOMON_VERSION, machine.cpu, machine.logical_cores, machine.simd, machine.system, machine.compiler,
-        machine.build, packages_text(), vulkan_text(), techniques_text());
+        machine.build, packages_text(), vulkan_text(), techniques_text("technique", pipeline::techniques()) +
+                           techniques_text("lighting technique", pipeline::lighting_techniques()));
     return print(text);
 }
 

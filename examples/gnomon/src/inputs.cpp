@@ -1,6 +1,7 @@
 #include "inputs.hpp"
 
 #include "find_by_name.hpp"
+#include "table.hpp"
 #include "values.hpp"
 
 #include <gnomon/scene/procedural.hpp>
@@ -207,6 +208,31 @@ Outcome<ChosenLight> choose_light(LightOptions const& options, Stage const& stag
     if (light.kind == scene::LightKind::point) return ChosenLight{light, "--point " + text_of(light.position_m)};
     for (int axis = 0; axis < 3; ++axis) light.direction[axis] = std::round(light.direction[axis] * 1e3) / 1e3;
     return ChosenLight{light, "--sun " + text_of(light.direction)};
+}
+
+Outcome<ChosenLights> choose_lights(LightOptions const& options, Stage const& stage, math::View const& view) {
+    bool const one = options.sun || options.point || options.name;
+    ChosenLights lights;
+    if (one || stage.loaded.scene.lights.empty()) {
+        auto light = choose_light(options, stage, view);
+        if (!light) return std::move(light).failure();
+        lights.values.push_back(light->value);
+        lights.text = light->text;
+        if (light->of_scene != scene::none) lights.of_scene = light->of_scene;
+        return lights;
+    }
+    lights.values.resize(stage.loaded.scene.lights.size());
+    lights.all_of_scene = true;
+    lights.text = fmt::format("all {} lights of the scene", grouped(lights.values.size()));
+    move_lights(lights, stage);
+    return lights;
+}
+
+void move_lights(ChosenLights& lights, Stage const& stage) {
+    if (lights.of_scene) lights.values.front() = scene::posed_light(stage.loaded.scene, stage.pose, *lights.of_scene);
+    if (!lights.all_of_scene) return;
+    for (std::size_t i = 0; i < lights.values.size(); ++i)
+        lights.values[i] = scene::posed_light(stage.loaded.scene, stage.pose, static_cast<std::uint32_t>(i));
 }
 
 }  // namespace gnomon::command

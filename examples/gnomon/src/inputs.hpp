@@ -8,6 +8,8 @@
 #include <gnomon/scene/path.hpp>
 #include <gnomon/scene/scene.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,5 +45,19 @@ struct ChosenLight {
 /// The light asked for, else the scene's first, else a sun, or a lamp where no sun reaches.
 [[nodiscard]] Outcome<ChosenLight> choose_light(LightOptions const& options, Stage const& stage,
                                                 math::View const& view);
+
+/// What a lighting technique shades under.
+struct ChosenLights {
+    std::vector<scene::Light> values;
+    std::string text;
+    std::optional<std::uint32_t> of_scene;  ///< Which of the scene's lights is the only one.
+    bool all_of_scene = false;
+};
+
+/// All of the scene's lights; else, where one is asked for or the scene has none, that of `choose_light`.
+[[nodiscard]] Outcome<ChosenLights> choose_lights(LightOptions const& options, Stage const& stage, math::View const& view);
+
+/// Moves the lights that are the scene's to where the stage's pose has them.
+void move_lights(ChosenLights& lights, Stage const& stage);
 
 }  // namespace gnomon::command

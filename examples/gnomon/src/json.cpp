@@ -21,6 +21,13 @@ Json ms_json(pipeline::RunReport const& run) {
             {"stages", stages}};
 }
 
+Json lighting_error_json(pipeline::Measures const& error) {
+    return {{"samples", error.samples},
+            {"wrong", error.wrong},
+            {"wrong_fraction", number(error.wrong_fraction)},
+            {"radiance_error", number(error.radiance_error)}};
+}
+
 Json error_json(pipeline::Measures const& error) {
     Json const edge = {
         {"mean", number(error.edge_px.mean)}, {"p99", number(error.edge_px.p99)}, {"max", number(error.edge_px.max)}};
@@ -58,7 +65,8 @@ Json params_json(std::vector<pipeline::Params::Value> const& params) {
 
 /// What went wrong is not known without the truth: then there is no error at all.
 Json error_or_null(Report const& report, pipeline::Measures const& error) {
-    return report.has_truth ? error_json(error) : Json(nullptr);
+    if (!report.has_truth) return nullptr;
+    return report.many_lights ? lighting_error_json(error) : error_json(error);
 }
 
 Json frame_json(Report const& report, FrameRecord const& frame) {

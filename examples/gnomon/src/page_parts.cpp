@@ -1,5 +1,6 @@
 #include "page_parts.hpp"
 
+#include "lights_parts.hpp"
 #include "page_style.hpp"
 #include "plot.hpp"
 #include "table.hpp"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
 
 namespace gnomon::command {
@@ -21,14 +21,6 @@ std::string params_text(pipeline::RunReport const& run) {
     for (pipeline::Params::Value const& value : run.params)
         text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", value.name, value.text);
     return text;
-}
-
-/// The overlays' own colours, so that the legend shows what the pictures show.
-std::string css_color(math::vec3 const& linear) {
-    auto const encoded = [](float c) {
-        return 255.0F * (c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F);
-    };
-    return fmt::format("rgb({:.0f} {:.0f} {:.0f})", encoded(linear.x), encoded(linear.y), encoded(linear.z));
 }
 
 /// Each word on one line: an option must not be broken after its hyphens.
@@ -84,16 +76,17 @@ std::string details_html(Run const& run) {
     return html + "</dl></details>\n";
 }
 
-std::string choice_html(std::string const& group, std::string const& extra_lit, std::string const& extra_wrong) {
+std::string choice_html(Report const& report, std::string const& group, std::string const& extra_lit,
+                        std::string const& extra_wrong) {
     return fmt::format(
         "<span class='choice'><input type='radio' class='show-lit' name='{0}' id='{0}-lit' checked{1}>"
         "<label for='{0}-lit'>picture</label><input type='radio' class='show-wrong' name='{0}' id='{0}-wrong'{2}>"
-        "<label for='{0}-wrong'>wrong pixels</label></span>",
-        group, extra_lit, extra_wrong);
+        "<label for='{0}-wrong'>{3}</label></span>",
+        group, extra_lit, extra_wrong, report.many_lights ? "lights per pixel" : "wrong pixels");
 }
 
-/// What the numbers say, in words: the least wrong of the inexact runs, beside ray.
 std::string verdict_html(Report const& report) {
+    if (report.many_lights) return lights_verdict_html(report);
     if (!report.has_truth) return {};
     Run const* best = nullptr;
     for (Run const& run : report.runs) {
@@ -114,6 +107,7 @@ std::string verdict_html(Report const& report) {
 }
 
 std::string table_html(Report const& report) {
+    if (report.many_lights) return lights_table_html(report);
     std::string html =
         "<div class='wide'><table>\n<thead><tr><th>run</th><th>wrong, %</th>"
         "<th><span class='swatch lit'></span>false-lit</th><th><span class='swatch shadow'></span>false-shadow</th>"
@@ -143,6 +137,12 @@ std::string card_html(Report const& report, Run const& run, RunPictures const& p
     auto const speed = speed_over_ray(report, run);
     std::string const pace = speed && run.result.technique != "ray" ? fmt::format(", {} × ray", figures(*speed)) : "";
     std::string const lit = picture_html(pictures.lit, report.size_px, "Lit picture of " + run.label);
+    if (report.many_lights)
+        return fmt::format("<article class='card'>\n<header><h3>{}</h3>{}</header>\n<div class='flip'>{}{}</div>\n"
+                           "<p class='figures'>{}</p>\n{}</article>\n",
+                           escaped(run.label), choice_html(report, fmt::format("run{}", index), "", ""), lit,
+                           picture_html(pictures.marks, report.size_px, "Lights evaluated for each pixel by " + run.label),
+                           lights_figures_html(report, run), details_html(run));
     if (!report.has_truth)
         return fmt::format("<article class='card'>\n<header><h3>{}</h3></header>\n<div class='flip'>{}</div>\n"
                            "<p class='figures'>{} ms.</p>\n{}</article>\n",
@@ -151,7 +151,7 @@ std::string card_html(Report const& report, Run const& run, RunPictures const& p
         "<article class='card'>\n<header><h3>{}</h3>{}</header>\n<div class='flip'>{}{}</div>\n"
         "<p class='figures'>{} % wrong: <span class='swatch lit'></span>{} false-lit, "
         "<span class='swatch shadow'></span>{} false-shadow. {} ms{}.</p>\n{}</article>\n",
-        escaped(run.label), choice_html(fmt::format("run{}", index), "", ""), lit,
+        escaped(run.label), choice_html(report, fmt::format("run{}", index), "", ""), lit,
         picture_html(pictures.marks, report.size_px, "Wrong pixels of " + run.label), percent(error.wrong_fraction),
         grouped(error.false_lit), grouped(error.false_shadow), figures(run.result.ms.median), pace, details_html(run));
 }

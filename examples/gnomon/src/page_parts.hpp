@@ -50,8 +50,8 @@ inline constexpr std::string_view legend =
     "<li><span class='swatch shadow'></span><b>false-shadow</b>: shown in shadow, truly lit (acne, a blocky "
     "edge)</li></ul>\n";
 
-/// The switch between a picture and its wrong pixels.
-[[nodiscard]] std::string choice_html(std::string const& group, std::string const& extra_lit,
+/// The switch between a picture and its wrong pixels, or its lighting computations.
+[[nodiscard]] std::string choice_html(Report const& report, std::string const& group, std::string const& extra_lit,
                                       std::string const& extra_wrong);
 
 }  // namespace gnomon::command

@@ -46,14 +46,37 @@ bool same_run(PlannedRun const& a, PlannedRun const& b) {
     auto const equal = [](pipeline::Params::Value const& x, pipeline::Params::Value const& y) {
         return x.text == y.text;
     };
-    return a.technique == b.technique && a.backend == b.backend && std::equal(a.params.values.begin(), a.params.values.end(),
+    return a.technique == b.technique && a.lighting == b.lighting && a.backend == b.backend && std::equal(a.params.values.begin(), a.params.values.end(),
                                                     b.params.values.begin(), b.params.values.end(), equal);
 }
 
-Outcome<PlannedRun> plan_run(pipeline::Technique const& technique, Settings const& settings) {
-    auto params = pipeline::make_params(technique, settings);
+/// A technique of either kind, or neither.
+struct AnyTechnique {
+    pipeline::Technique const* shadows = nullptr;
+    pipeline::LightingTechnique const* lighting = nullptr;
+};
+
+template <class Techniques>
+std::string names_in(Techniques const& techniques) {
+    std::vector<std::string> names;
+    for (auto const& technique : techniques) names.emplace_back(technique.name);
+    return join(names, ", ");
+}
+
+Outcome<AnyTechnique> find_any(std::string const& option, std::string const& name) {
+    if (auto shadows = pipeline::find_technique(name)) return AnyTechnique{*shadows, nullptr};
+    if (auto lighting = pipeline::find_lighting_technique(name)) return AnyTechnique{nullptr, *lighting};
+    return usage_error(fmt::format("{}: there is no technique '{}'; there are, for shadows, {}; for many lights, {}", option, name,
+                                   names_in(pipeline::techniques()), names_in(pipeline::lighting_techniques())));
+}
+
+Outcome<PlannedRun> plan_run(std::string const& name, Settings const& settings) {
+    auto const technique = find_any("--techniques", name);
+    if (!technique) return technique.failure();
+    auto params = technique->shadows != nullptr ? pipeline::make_params(*technique->shadows, settings)
+                                                : pipeline::make_params(*technique->lighting, settings);
     if (!params) return usage_error("--param: " + params.failure().message);
-    PlannedRun run{&technique, *std::move(params), {}, std::string(technique.name), {}};
+    PlannedRun run{technique->shadows, technique->lighting, *std::move(params), {}, name, {}};
     for (pipeline::Setting const& setting : settings) run.label += fmt::format(" {}={}", setting.name, setting.text);
     return run;
 }
@@ -77,14 +100,20 @@ Outcome<core::Done> add_on_each(std::vector<std::string> const& backends, Planne
 }
 
 Outcome<core::Done> check_names(std::vector<std::string> const& techniques, std::vector<ParamOption> const& params) {
-    for (std::string const& name : techniques)
-        if (auto found = pipeline::find_technique(name); !found)
-            return usage_error("--techniques: " + found.failure().message);
+    std::string shadows, lighting;
+    for (std::string const& name : techniques) {
+        auto const found = find_any("--techniques", name);
+        if (!found) return found.failure();
+        (found->shadows != nullptr ? shadows : lighting) = name;
+    }
+    if (!shadows.empty() && !lighting.empty())
+        return usage_error(fmt::format("--techniques {},{}: the first draws the shadows of one light, the second shades under many; "
+                                       "give them to two commands",
+                                       shadows, lighting));
     for (std::size_t i = 0; i < params.size(); ++i) {
         ParamOption const& param = params[i];
         std::string const whole = fmt::format("--param {}.{}", param.technique, param.name);
-        if (auto found = pipeline::find_technique(param.technique); !found)
-            return usage_error(whole + ": " + found.failure().message);
+        if (auto found = find_any(whole, param.technique); !found) return found.failure();
         if (std::find(techniques.begin(), techniques.end(), param.technique) == techniques.end())
             return usage_error(fmt::format("{}: {} is not among the techniques to run; add it to --techniques {}",
                                            whole, param.technique, join(techniques, ",")));
@@ -101,14 +130,15 @@ Outcome<std::vector<PlannedRun>> plan_runs(RunOptions const& options) {
     if (auto names = check_names(options.techniques, options.params); !names) return std::move(names).failure();
     std::vector<PlannedRun> runs;
     for (std::string const& name : options.techniques) {
-        auto technique = pipeline::find_technique(name);
         for (Settings const& settings : combinations(name, options.params)) {
-            auto run = plan_run(**technique, settings);
+            auto run = plan_run(name, settings);
             if (!run) return std::move(run).failure();
             if (auto added = add_on_each(options.backends, *run, runs); !added) return std::move(added).failure();
         }
     }
     return runs;
 }
+
+bool lights_many(std::vector<PlannedRun> const& plan) noexcept { return !plan.empty() && plan.front().lighting != nullptr; }
 
 }  // namespace gnomon::command

@@ -46,7 +46,7 @@ double next_step(double value) {
     return value * (lead > 4.5 ? 2.0 : lead > 1.8 ? 2.5 : 2.0);
 }
 
-void grid(std::string& svg, LogAxis const& x, LogAxis const& y) {
+void grid(std::string& svg, LogAxis const& x, LogAxis const& y, std::string_view zero) {
     auto out = std::back_inserter(svg);
     for (double const value : x.ticks()) {
         double const at = left + x.fraction(value) * (width - left - right);
@@ -63,21 +63,21 @@ void grid(std::string& svg, LogAxis const& x, LogAxis const& y) {
     }
     fmt::format_to(out, "<rect class='strip' x='{}' y='{}' width='{}' height='{}'/>", left, log_floor_y,
                    width - left - right, strip);
-    fmt::format_to(out, "<text class='tick' x='{}' y='{}' text-anchor='end'>exact</text>\n", left - 8.0,
-                   log_floor_y + strip / 2 + 4.0);
+    fmt::format_to(out, "<text class='tick' x='{}' y='{}' text-anchor='end'>{}</text>\n", left - 8.0,
+                   log_floor_y + strip / 2 + 4.0, escaped(zero));
     fmt::format_to(out, "<rect class='frame' x='{}' y='{}' width='{}' height='{}'/>\n", left, top, width - left - right,
                    floor_y - top);
 }
 
-void axis_titles(std::string& svg) {
+void axis_titles(std::string& svg, PlotAxes const& axes) {
     auto out = std::back_inserter(svg);
     fmt::format_to(out,
-                   "<text class='axis' x='{}' y='{}' text-anchor='middle'>time for the shadows, ms (median)</text>",
-                   (left + width - right) / 2, height - 14.0);
+                   "<text class='axis' x='{}' y='{}' text-anchor='middle'>{}</text>",
+                   (left + width - right) / 2, height - 14.0, escaped(axes.x));
     fmt::format_to(out,
                    "<text class='axis' transform='translate(18 {}) rotate(-90)' text-anchor='middle'>"
-                   "wrong samples, %</text>\n",
-                   (top + floor_y) / 2);
+                   "{}</text>\n",
+                   (top + floor_y) / 2, escaped(axes.y));
 }
 
 /// Marks on the upper edge: how many times as fast as `ray`.
@@ -105,7 +105,7 @@ void series_lines(std::string& svg, std::span<PlotPoint const> points, std::span
         if (std::any_of(before.begin(), before.end(), of_series)) continue;
         std::string path;
         for (std::size_t j = i; j < points.size(); ++j)
-            if (of_series(points[j]) && points[j].wrong_fraction > 0.0)
+            if (of_series(points[j]) && points[j].y > 0.0)
                 path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", at[j].x, at[j].y);
         if (!path.empty())
             svg += fmt::format("<path class='line s{}' d='{}'/>\n", series_index(points, points[i].series) % 6, path);
@@ -163,6 +163,13 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
+std::string css_color(math::vec3 const& linear) {
+    auto const encoded = [](float c) {
+        return 255.0F * (c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F);
+    };
+    return fmt::format("rgb({:.0f} {:.0f} {:.0f})", encoded(linear.x), encoded(linear.y), encoded(linear.z));
+}
+
 std::size_t series_index(std::span<PlotPoint const> points, std::string_view series) {
     std::vector<std::string_view> seen;
     for (PlotPoint const& point : points) {
@@ -198,36 +205,36 @@ LogAxis axis_over(std::span<double const> values) {
     return axis;
 }
 
-std::string plot_svg(std::span<PlotPoint const> points, std::optional<RayTime> const& ray) {
+std::string plot_svg(std::span<PlotPoint const> points, PlotAxes const& axes, std::optional<RayTime> const& ray) {
     std::vector<double> times;
     std::vector<double> errors;
     for (PlotPoint const& point : points) {
         times.push_back(point.ms);
-        errors.push_back(point.wrong_fraction * 100.0);
+        errors.push_back(point.y);
     }
     LogAxis const x = axis_over(times);
     LogAxis const y = axis_over(errors);
     std::string svg = fmt::format(
-        "<svg class='plot' viewBox='0 0 {} {}' role='img' aria-label='Speed against error'>\n", width, height);
-    grid(svg, x, y);
-    axis_titles(svg);
+        "<svg class='plot' viewBox='0 0 {} {}' role='img' aria-label='{}'>\n", width, height, escaped(axes.title));
+    grid(svg, x, y, axes.zero);
+    axis_titles(svg, axes);
     if (ray && ray->ms > 0.0) speed_axis(svg, x, *ray);
     std::vector<Placed> at;
     std::vector<Box> taken;
     for (PlotPoint const& point : points) {
         double const across = point.ms > 0.0 ? std::clamp(x.fraction(point.ms), 0.0, 1.0) : 0.0;
-        double const up = point.wrong_fraction > 0.0 ? y.fraction(point.wrong_fraction * 100.0) : 0.0;
+        double const up = point.y > 0.0 ? y.fraction(point.y) : 0.0;
         at.push_back({left + across * (width - left - right),
-                      point.wrong_fraction > 0.0 ? log_floor_y - up * (log_floor_y - top) : log_floor_y + strip / 2});
+                      point.y > 0.0 ? log_floor_y - up * (log_floor_y - top) : log_floor_y + strip / 2});
         taken.push_back({at.back().x - 7.0, at.back().y - 7.0, at.back().x + 7.0, at.back().y + 7.0});
     }
     series_lines(svg, points, at);
     for (std::size_t i = 0; i < points.size(); ++i)
         fmt::format_to(std::back_inserter(svg),
                        "<circle class='dot s{}' cx='{:.1f}' cy='{:.1f}' r='6'><title>{}: {:.4g} ms, "
-                       "{:.4g} % wrong</title></circle>\n",
+                       "{}: {:.4g}</title></circle>\n",
                        series_index(points, points[i].series) % 6, at[i].x, at[i].y, escaped(points[i].label),
-                       points[i].ms, points[i].wrong_fraction * 100.0);
+                       points[i].ms, escaped(axes.y), points[i].y);
     for (std::size_t i = 0; i < points.size(); ++i) label(svg, points[i], at[i], taken);
     return svg + "</svg>\n";
 }

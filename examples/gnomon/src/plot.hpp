@@ -1,5 +1,7 @@
 #pragma once
-// Speed against error as one inline SVG: both axes logarithmic, exact runs on a strip of their own below.
+// Speed against error, or another number, as one inline SVG: both axes logarithmic, zeros on a strip of their own below.
+
+#include <gnomon/math/vec.hpp>
 
 #include <optional>
 #include <span>
@@ -13,8 +15,19 @@ struct PlotPoint {
     std::string label;
     std::string series;  ///< Points of one series share a colour and are joined in order.
     double ms = 0.0;
-    double wrong_fraction = 0.0;
+    double y = 0.0;  ///< In the unit of the axis; 0 stands on a strip of its own.
 };
+
+/// What the axes say.
+struct PlotAxes {
+    std::string_view x = "time for the shadows, ms (median)";
+    std::string_view y = "wrong samples, %";
+    std::string_view zero = "exact";  ///< What a y of 0 is.
+    std::string_view title = "Speed against error";
+};
+
+/// A colour of linear components as CSS has it.
+[[nodiscard]] std::string css_color(math::vec3 const& linear);
 
 /// Text made safe between tags and inside attribute quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
@@ -40,6 +53,6 @@ struct RayTime {
 };
 
 /// The SVG element, colours by CSS classes of the page. `ray`: adds an axis on top in multiples of it.
-[[nodiscard]] std::string plot_svg(std::span<PlotPoint const> points, std::optional<RayTime> const& ray);
+[[nodiscard]] std::string plot_svg(std::span<PlotPoint const> points, PlotAxes const& axes, std::optional<RayTime> const& ray);
 
 }  // namespace gnomon::command

@@ -127,7 +127,14 @@ pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::R
     return total;
 }
 
+std::optional<std::uint64_t> count_of(std::vector<pipeline::Count> const& counts, std::string_view name) {
+    for (pipeline::Count const& count : counts)
+        if (count.name == name) return count.value;
+    return std::nullopt;
+}
+
 std::optional<double> ray_ms(Report const& report) {
+    if (report.many_lights) return std::nullopt;
     for (Run const& run : report.runs)
         if (run.result.technique == "ray") return run.result.ms.median;
     return report.truth_ms > 0.0 ? std::optional(report.truth_ms) : std::nullopt;
@@ -139,6 +146,19 @@ std::optional<double> speed_over_ray(Report const& report, Run const& run) {
         if (other.result.technique == "ray" && other.result.backend == run.result.backend) ray = other.result.ms.median;
     if (!ray || !(run.result.ms.median > 0.0)) return std::nullopt;
     return *ray / run.result.ms.median;
+}
+
+std::optional<double> speed_over_stencil(Report const& report, Run const& run) {
+    for (Run const& other : report.runs)
+        if (other.result.technique == "deferred-stencil" && other.result.backend == run.result.backend && run.result.ms.median > 0.0)
+            return other.result.ms.median / run.result.ms.median;
+    return std::nullopt;
+}
+
+std::optional<double> computations_over_least(Report const& report, Run const& run) {
+    auto const computations = count_of(run.result.counts, "lighting_computations");
+    if (!computations || report.reaching == 0) return std::nullopt;
+    return static_cast<double>(*computations) / static_cast<double>(report.reaching);
 }
 
 }  // namespace gnomon::command

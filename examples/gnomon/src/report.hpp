@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::command {
@@ -49,10 +50,11 @@ struct Fact {
 };
 
 struct Report {
+    bool many_lights = false;  ///< The runs shade under many lights; else each draws the shadows of one.
     std::string command;  ///< As typed, for whoever wants to repeat it.
     std::string scene;    ///< A built-in name with its options, or the file's name.
     std::string view;     ///< As options that give the same view again.
-    std::string light;    ///< As options, or which of the file's lights.
+    std::string light;    ///< As options, or which of the file's lights, or how many.
     std::vector<Fact> facts;
     math::ivec2 size_px{0, 0};
     std::uint64_t triangles = 0;
@@ -65,8 +67,13 @@ struct Report {
     double truth_ms = 0.0;  ///< What tracing the truth took, for one frame: the same work as a `ray` run.
     Machine machine;
     std::vector<Run> runs;
+    std::uint64_t reaching = 0;   ///< Pairs of a light and a sample that it reaches; of all frames.
+    std::uint32_t heat_most = 0;  ///< Lights that are white in the heat maps.
     pipeline::Image exact;
 };
+
+/// A count of a run by name.
+[[nodiscard]] std::optional<std::uint64_t> count_of(std::vector<pipeline::Count> const& counts, std::string_view name);
 
 /// A path as one run: median, least and greatest time of its frames, sums of their errors and counts. Means weigh each
 /// frame by its samples; a p99 or maximum is the greatest of any frame.
@@ -81,5 +88,11 @@ struct Report {
 /// How many times as fast as exact rays in the same command, on the same backend where they ran there; nothing where
 /// either took no time.
 [[nodiscard]] std::optional<double> speed_over_ray(Report const& report, Run const& run);
+
+/// Of many lights: how many times as fast as `deferred-stencil` on the same backend in the same command.
+[[nodiscard]] std::optional<double> speed_over_stencil(Report const& report, Run const& run);
+
+/// Lighting computations of a run beside the fewest that do; nothing where no light reaches a sample.
+[[nodiscard]] std::optional<double> computations_over_least(Report const& report, Run const& run);
 
 }  // namespace gnomon::command

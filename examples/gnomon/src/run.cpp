@@ -32,7 +32,9 @@ ReportPictures compress(Report const& report, bool overlays, core::ExecutorRef e
     if (overlays)
         executor.parallel_for(report.runs.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                pictures.runs[i].marks = png_from(thickened(picture_of(report.runs[i].result.overlay)));
+                pictures.runs[i].marks = report.many_lights
+                                             ? pictures.runs[i].overlay
+                                             : png_from(thickened(picture_of(report.runs[i].result.overlay)));
         });
     return pictures;
 }
@@ -46,7 +48,8 @@ std::vector<OutputFile> files_of(Report const& report, Verb verb, core::Executor
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
         std::string const& slug = report.runs[i].slug;
         files.push_back({slug + (compares ? ".lit.png" : ".png"), std::move(pictures.runs[i].lit)});
-        if (compares) files.push_back({slug + ".wrong.png", std::move(pictures.runs[i].overlay)});
+        if (compares)
+            files.push_back({slug + (report.many_lights ? ".lights.png" : ".wrong.png"), std::move(pictures.runs[i].overlay)});
     }
     std::vector<std::string> names;
     for (OutputFile const& file : files) names.push_back(file.name);
@@ -83,22 +86,28 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     if (!stage) return std::move(stage).failure();
     auto view = choose_view(options.view, *stage);
     if (!view) return std::move(view).failure();
-    auto light = choose_light(options.light, *stage, view->value);
+    auto light = choose_lighting(options, plan, *stage, view->value);
     if (!light) return std::move(light).failure();
-    bar.show(1, steps, options.truth ? "tracing the exact shadows" : "drawing");
+    bool const shadows = !lights_many(plan);
+    bar.show(1, steps, shadows && options.truth ? "tracing the exact shadows" : "drawing");
     auto frame = pipeline::make_frame(stage->loaded.scene, stage->geometry,
-                                      pipeline::Shot{view->value, light->value, options.truth}, executor);
+                                      pipeline::Shot{view->value, light->for_frame(), shadows && options.truth}, executor);
     if (!frame) return exit_for(frame.failure());
     StepsOfRuns steps_of_runs{&bar, &plan};
     pipeline::CompareConfig config;
     config.repeats = options.repeats;
+    config.truth = options.truth;
     config.progress = {&StepsOfRuns::report, &steps_of_runs};
-    auto compared = pipeline::compare(*frame, requests_of(plan, *backends), config, executor);
-    if (!compared) return exit_for(compared.failure());
-    Report report = start_report(options, *stage, *light);
+    auto compared = Requests(plan, *backends).compare(*frame, *light, config, executor);
+    if (!compared) return std::move(compared).failure();
+    Report report = start_report(options, *stage);
+    report.many_lights = !shadows;
+    report.light = light->text();
     report.view = view->text + stage->text();
     report.samples = compared->samples;
     report.truly_lit = compared->truly_lit;
+    report.reaching = compared->reaching;
+    report.heat_most = compared->heat_most;
     report.exact = std::move(compared->exact);
     for (pipeline::StageTime const& time : frame->stages)
         if (time.name.starts_with("truth")) report.truth_ms += time.ms;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <string_view>
 
 namespace gnomon::command {
 
@@ -33,8 +35,23 @@ std::string words_of(std::string_view name) {
     return words;
 }
 
+/// What shines, and what kinds of lights there are.
+std::string light_fact(scene::Scene const& scene, Lighting const& light) {
+    if (light.one)
+        return fmt::format("{} ({}{})", light.one->text, pipeline::name_of(light.one->value.kind),
+                           light.one->of_scene != scene::none ? fmt::format(", the scene has {}", scene.lights.size()) : "");
+    std::map<std::string_view, std::size_t> kinds;
+    for (scene::Light const& l : light.many.values) ++kinds[pipeline::name_of(l.kind)];
+    std::string text;
+    for (auto const& [kind, count] : kinds) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), kind);
+    return fmt::format("{} ({})", light.many.text, text);
+}
+
 std::string lit_share(Report const& report) {
     if (!report.has_truth || report.samples == 0) return {};
+    if (report.many_lights)
+        return fmt::format("; {} lights reach one of them on average",
+                           figures(static_cast<double>(report.reaching) / static_cast<double>(report.samples)));
     double const lit = static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
     return fmt::format("; {:.1f} % of them are truly lit", lit * 100.0);
 }
@@ -71,11 +88,10 @@ core::Failure<Exit> exit_for(core::Failure<pipeline::Error> const& why) {
     return failure(why.message);
 }
 
-Report start_report(RunOptions const& options, Stage const& stage, ChosenLight const& light) {
+Report start_report(RunOptions const& options, Stage const& stage) {
     Report report;
     report.command = options.command;
     report.scene = stage.loaded.text;
-    report.light = light.text;
     report.size_px = options.view.size_px;
     report.triangles = stage.geometry.indices.size() / 3;
     report.threads = options.threads;
@@ -85,7 +101,7 @@ Report start_report(RunOptions const& options, Stage const& stage, ChosenLight c
     return report;
 }
 
-void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pipeline::Frame const& frame) {
+void add_facts(Report& report, Stage const& stage, Lighting const& light, pipeline::Frame const& frame) {
     scene::Scene const& scene = stage.loaded.scene;
     std::uint64_t const pixels = pipeline::pixel_count(report.size_px) * report.frames;
     report.facts = {
@@ -93,9 +109,7 @@ void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pip
         {"triangles",
          fmt::format("{} drawn, {} stored", grouped(report.triangles), grouped(scene::count_unique_triangles(scene)))},
         {"view", report.view},
-        {"light",
-         fmt::format("{} ({}{})", report.light, pipeline::name_of(light.value.kind),
-                     light.of_scene != scene::none ? fmt::format(", the scene has {}", scene.lights.size()) : "")},
+        {light.one ? "light" : "lights", light_fact(scene, light)},
         {"samples", fmt::format("{} of {} pixels show a surface{}", grouped(report.samples), grouped(pixels),
                                 lit_share(report))}};
     if (std::string const missing = left_out(stage, frame); !missing.empty())
@@ -117,14 +131,44 @@ void add_facts(Report& report, Stage const& stage, ChosenLight const& light, pip
     report.facts.push_back({"build", fmt::format("{}, {}, {}", machine.compiler, machine.build, machine.system)});
 }
 
-std::vector<pipeline::RunRequest> requests_of(std::vector<PlannedRun> const& plan, Backends const& backends) {
-    std::vector<pipeline::RunRequest> requests;
-    for (PlannedRun const& planned : plan) {
-        pipeline::RunRequest request{planned.technique, planned.params};
-        request.device = &backends.get(planned.backend);
-        requests.push_back(std::move(request));
+scene::Light Lighting::for_frame() const { return one ? one->value : pipeline::sun({0.0, -1.0, 0.0}); }
+
+void Lighting::move_to(Stage const& stage) {
+    if (!one) move_lights(many, stage);
+    if (one && one->of_scene != scene::none) one->value = scene::posed_light(stage.loaded.scene, stage.pose, one->of_scene);
+}
+
+Outcome<Lighting> choose_lighting(RunOptions const& options, std::vector<PlannedRun> const& plan, Stage const& stage,
+                                  math::View const& view) {
+    Lighting lighting;
+    if (lights_many(plan)) {
+        auto lights = choose_lights(options.light, stage, view);
+        if (!lights) return std::move(lights).failure();
+        lighting.many = *std::move(lights);
+        return lighting;
     }
-    return requests;
+    auto light = choose_light(options.light, stage, view);
+    if (!light) return std::move(light).failure();
+    lighting.one = *std::move(light);
+    return lighting;
+}
+
+Requests::Requests(std::vector<PlannedRun> const& plan, Backends const& backends,
+                   std::span<std::unique_ptr<pipeline::Workspace> const> workspaces) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        pipeline::Workspace* const workspace = workspaces.empty() ? nullptr : workspaces[i].get();
+        backend::Backend* const device = &backends.get(plan[i].backend);
+        if (plan[i].technique != nullptr) shadows_.push_back({plan[i].technique, plan[i].params, workspace, device});
+        if (plan[i].lighting != nullptr) lighting_.push_back({plan[i].lighting, plan[i].params, workspace, device});
+    }
+}
+
+Outcome<pipeline::Comparison> Requests::compare(pipeline::Frame const& frame, Lighting const& light,
+                                                pipeline::CompareConfig const& config, core::ExecutorRef executor) const {
+    auto compared = light.one ? pipeline::compare(frame, shadows_, config, executor)
+                              : pipeline::compare(frame, light.many.values, lighting_, config, executor);
+    if (!compared) return exit_for(compared.failure());
+    return *std::move(compared);
 }
 
 Run run_of(PlannedRun const& planned, Backends const& backends) {

@@ -1,5 +1,7 @@
 #include "table.hpp"
 
+#include "lights_parts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +53,7 @@ std::string heading(Report const& report) {
     double const lit =
         report.samples == 0 ? 0.0 : static_cast<double>(report.truly_lit) / static_cast<double>(report.samples);
     std::string const frames = report.frames > 1 ? fmt::format("{} frames, ", grouped(report.frames)) : "";
-    std::string const truth = report.has_truth ? fmt::format(", {:.1f} % truly lit", lit * 100.0) : "";
+    std::string const truth = report.has_truth && !report.many_lights ? fmt::format(", {:.1f} % truly lit", lit * 100.0) : "";
     return fmt::format("{}: {} triangles, {}{} samples in {}x{} px{}, {} threads\n{}   {}\n\n", report.scene,
                        grouped(report.triangles), frames, grouped(report.samples), report.size_px.x, report.size_px.y,
                        truth, report.threads, report.view, report.light);
@@ -67,6 +69,7 @@ FrameRecord const& worst_of(std::vector<FrameRecord> const& frames) {
 }  // namespace
 
 std::string table_text(Report const& report, bool styled) {
+    if (report.many_lights) return heading(report) + aligned(lights_rows(report), {.bold_head = styled});
     bool const flies = report.frames > 1;
     std::vector<std::string> head = {"run"};
     if (report.has_truth) head.insert(head.end(), {"wrong %", "false-lit", "false-shadow", "edge px mean", "max"});

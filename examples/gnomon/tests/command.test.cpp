@@ -57,6 +57,43 @@ TEST_CASE("compare writes a folder that is whole: page, pictures, results", "[co
     CHECK(ended.err.empty());
 }
 
+TEST_CASE("many lights are compared by image and by work; with shadows they do not mix", "[command]") {
+    TestFolder const folder;
+    std::vector<std::string> const scene{"atrium", "--lights", "300", "--size", "96x54", "--repeats", "1"};
+    std::vector<std::string> words{"compare"};
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), {"--techniques", "deferred-stencil,tiled-deferred", "--param", "tiled-deferred.tile=16,32", "--out", "out"});
+    Ended const ended = gnomon_in(folder.path(), words);
+    CAPTURE(ended.err, ended.out);
+    REQUIRE(ended.exit_code == 0);
+    json const results = results_in(folder / "out");
+    auto const errors = schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results);
+    CAPTURE(errors.empty() ? std::string() : errors.front());
+    CHECK(errors.empty());
+    json const& runs = results["runs"];
+    REQUIRE(runs.size() == 3);
+    auto const computations = [&](std::size_t run) { return runs[run]["counts"]["lighting_computations"].get<std::uint64_t>(); };
+    CHECK(computations(0) > 0);
+    CHECK(computations(0) < computations(1));
+    CHECK(computations(1) < computations(2));
+    for (json const& run : runs) {
+        CHECK(run["error"]["wrong"] == 0);
+        CHECK(run["error"]["radiance_error"] == 0.0);
+        CHECK_FALSE(run["error"].contains("false_lit"));
+        CHECK(run["light"] == "all 300 lights of the scene");
+    }
+    std::string const page = read_text(folder / "out/index.html");
+    CHECK(has(page, "All images are the same to the last bit"));
+    CHECK(fs::exists(folder / "out/tiled-deferred-tile-16.lights.png"));
+
+    Ended const mixed = gnomon_in(folder.path(), {"compare", "atrium", "--techniques", "ray,tiled-deferred"});
+    CHECK(mixed.exit_code == 2);
+    CHECK(has(mixed.err, "--techniques ray,tiled-deferred: the first draws the shadows of one light"));
+    Ended const unknown = gnomon_in(folder.path(), {"compare", "atrium", "--techniques", "clustered"});
+    CHECK(unknown.exit_code == 2);
+    CHECK(has(unknown.err, "for many lights, deferred, "));
+}
+
 TEST_CASE("the page loads nothing from elsewhere", "[command]") {
     TestFolder const folder;
     Ended const ended =

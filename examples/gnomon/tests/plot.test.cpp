@@ -34,13 +34,13 @@ TEST_CASE("ticks go 1, 2, 5, 10", "[plot]") {
 TEST_CASE("names from files cannot become markup", "[plot]") {
     CHECK(escaped("<b a='x' c=\"y\">&") == "&lt;b a=&#39;x&#39; c=&quot;y&quot;&gt;&amp;");
     std::vector<PlotPoint> const points = {{"</svg><script>", "a", 10.0, 0.1}};
-    CHECK(plot_svg(points, std::nullopt).find("<script>") == std::string::npos);
+    CHECK(plot_svg(points, {}, std::nullopt).find("<script>") == std::string::npos);
 }
 
 TEST_CASE("a plot of exact, of instant and of no runs has no NaN in it", "[plot]") {
     std::vector<PlotPoint> const points = {{"ray", "ray", 480.0, 0.0}, {"a", "a", 0.0, 1.0}, {"b", "b", 1e-9, 1e-12}};
     for (std::size_t n = 0; n <= points.size(); ++n) {
-        std::string const svg = plot_svg(std::span(points).first(n), n == 0 ? std::nullopt : std::optional(RayTime{480.0}));
+        std::string const svg = plot_svg(std::span(points).first(n), {}, n == 0 ? std::nullopt : std::optional(RayTime{480.0}));
         CHECK(svg.find("nan") == std::string::npos);
         CHECK(svg.find("inf") == std::string::npos);
         CHECK(svg.ends_with("</svg>\n"));

@@ -48,6 +48,10 @@ class Validator {
     void check_object(json const& schema, json const& value, std::string const& where) {
         for (json const& name : schema.value("required", json::array()))
             if (!value.contains(name.get<std::string>())) complain(where, "lacks " + name.dump());
+        json const dependent = schema.value("dependentRequired", json::object());
+        for (auto const& [name, others] : dependent.items())
+            for (json const& other : others)
+                if (value.contains(name) && !value.contains(other.get<std::string>())) complain(where, "lacks " + other.dump());
         json const properties = schema.value("properties", json::object());
         for (auto const& [name, field] : value.items()) {
             std::string const inner = where + '.' + name;
@@ -78,7 +82,8 @@ class Validator {
                                                        "title",    "description", "type",
                                                        "required", "properties",  "additionalProperties",
                                                        "items",    "enum",        "minimum",
-                                                       "maximum",  "minLength",   "$ref"};
+                                                       "maximum",  "minLength",   "$ref",
+                                                       "dependentRequired"};
         for (auto const& [keyword, rule] : schema.items()) {
             if (std::find(known.begin(), known.end(), keyword) == known.end())
                 complain(where, "the schema uses the unknown keyword " + keyword);

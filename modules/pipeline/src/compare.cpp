@@ -1,6 +1,7 @@
 // Runs requests on a frame and turns them into reports.
 
 #include "detail.hpp"
+#include "repeats.hpp"
 
 #include <gnomon/pipeline/report.hpp>
 
@@ -9,29 +10,6 @@
 namespace gnomon::pipeline {
 
 namespace {
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    std::size_t const n = values.size();
-    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
-/// Sums and medians of the repeats' stages; every repeat has the same stages.
-void summarize(std::vector<std::vector<StageTime>> const& repeats, RunReport& report) {
-    std::vector<double> totals;
-    for (auto const& stages : repeats) {
-        double total = 0.0;
-        for (StageTime const& stage : stages) total += stage.ms;
-        totals.push_back(total);
-    }
-    report.ms = {median(totals), *std::min_element(totals.begin(), totals.end()),
-                 *std::max_element(totals.begin(), totals.end())};
-    for (std::size_t s = 0; s < repeats.front().size(); ++s) {
-        std::vector<double> times;
-        for (auto const& stages : repeats) times.push_back(stages[s].ms);
-        report.stages.push_back({repeats.front()[s].name, median(times)});
-    }
-}
 
 Result<RunReport> run_one(Frame const& frame, RunRequest const& request, CompareConfig const& config,
                           Shading const& shading, core::ExecutorRef executor) {
@@ -51,7 +29,7 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
         output = std::move(result).value();
         repeats.push_back(output.stages);
     }
-    summarize(repeats, report);
+    summarize_repeats(repeats, report);
     report.counts = output.counts;
     report.bytes = output.bytes;
     if (config.images) report.lit = picture(frame, shading, output.visibility);

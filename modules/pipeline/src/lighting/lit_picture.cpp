@@ -17,13 +17,6 @@ namespace {
 constexpr std::array<math::vec3, 6> heat{math::vec3(0.0F),        math::vec3(0.02F, 0.05F, 0.6F), math::vec3(0.02F, 0.6F, 0.1F),
                                          math::vec3(1.0F, 0.8F, 0.0F), math::vec3(0.9F, 0.05F, 0.0F), math::vec3(1.0F)};
 
-math::vec3 heat_color(float share) noexcept {
-    float const place = std::clamp(share, 0.0F, 1.0F) * static_cast<float>(heat.size() - 1);
-    auto const first = std::min(static_cast<std::size_t>(place), heat.size() - 2);
-    float const weight = place - static_cast<float>(first);
-    return heat[first] * (1.0F - weight) + heat[first + 1] * weight;
-}
-
 template <class Color>
 Image painted(Frame const& frame, Color&& color_of_sample) {
     Image image{frame.view.size_px, std::vector<std::uint8_t>(pixel_count(frame.view.size_px) * 3)};
@@ -33,6 +26,13 @@ Image painted(Frame const& frame, Color&& color_of_sample) {
 
 }  // namespace
 
+math::vec3 heat_color(float share) noexcept {
+    float const place = std::clamp(share, 0.0F, 1.0F) * static_cast<float>(heat.size() - 1);
+    auto const first = std::min(static_cast<std::size_t>(place), heat.size() - 2);
+    float const weight = place - static_cast<float>(first);
+    return heat[first] * (1.0F - weight) + heat[first + 1] * weight;
+}
+
 float pick_exposure(std::span<math::vec3 const> radiance) {
     std::vector<float> lit;
     for (math::vec3 const& c : radiance)
@@ -40,7 +40,7 @@ float pick_exposure(std::span<math::vec3 const> radiance) {
     if (lit.empty()) return 1.0F;
     auto const key = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 9 / 10);
     std::nth_element(lit.begin(), key, lit.end());
-    return 0.8F / *key;
+    return 0.5F / *key;
 }
 
 Image lit_picture(Frame const& frame, std::span<math::vec3 const> radiance, float exposure) {

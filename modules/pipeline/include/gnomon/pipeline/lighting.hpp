@@ -60,7 +60,10 @@ struct LightingTechnique {
 /// The picture of a lit frame: tone mapped, sRGB; the background is black.
 [[nodiscard]] Image lit_picture(Frame const& frame, std::span<math::vec3 const> radiance, float exposure);
 
-/// Lighting computations per pixel as colours: black 0, then blue, green, yellow, red, white at `most` and above.
+/// Black at 0, then blue, green, yellow, red at fifths, white at 1. Linear.
+[[nodiscard]] math::vec3 heat_color(float share) noexcept;
+
+/// Lighting computations per pixel as `heat_color` of their share of `most`.
 [[nodiscard]] Image heat_map(Frame const& frame, std::span<std::uint32_t const> computations, std::uint32_t most);
 
 }  // namespace gnomon::pipeline

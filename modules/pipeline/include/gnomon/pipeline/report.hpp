@@ -5,6 +5,7 @@
 #include <gnomon/pipeline/error.hpp>
 #include <gnomon/pipeline/frame.hpp>
 #include <gnomon/pipeline/image.hpp>
+#include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/pipeline/measures.hpp>
 #include <gnomon/pipeline/shade.hpp>
 #include <gnomon/pipeline/technique.hpp>
@@ -34,7 +35,7 @@ struct RunReport {
     std::vector<Count> counts;
     std::vector<Count> bytes;
     Image lit;      ///< The picture with this technique's shadows.
-    Image overlay;  ///< Wrong samples in two colours; empty without truth.
+    Image overlay;  ///< Wrong samples in two colours, empty without truth; of a lighting technique its `heat_map`.
 };
 
 struct RunRequest {
@@ -42,6 +43,14 @@ struct RunRequest {
     Params params;
     Workspace* workspace = nullptr;      ///< Kept by the caller from frame to frame; null: one for the call.
     backend::Backend* device = nullptr;  ///< What it runs on, which outlives the workspace; null: the CPU.
+};
+
+/// The same of a lighting technique.
+struct LightingRequest {
+    LightingTechnique const* technique = nullptr;
+    Params params;
+    Workspace* workspace = nullptr;
+    backend::Backend* device = nullptr;
 };
 
 /// Called between runs, from the calling thread.
@@ -56,6 +65,8 @@ struct CompareConfig {
     int repeats = 1;     ///< Timed runs of each request; at least 1.
     bool images = true;  ///< Fill `lit` and `overlay`.
     ShadeConfig shading;
+    bool truth = true;           ///< Of lighting techniques: find their truth. A shadow's is the frame's own.
+    std::uint32_t heat_most = 0; ///< Lights that are white in a heat map; 0: what suits the runs.
     Progress progress;
 };
 
@@ -63,8 +74,10 @@ struct Comparison {
     std::vector<RunReport> runs;  ///< In the order of the requests.
     Image exact;                  ///< The picture with the true shadows, if images are asked for and there is truth.
     float exposure = 1.0F;        ///< Of the pictures; give it to the next frame of a film.
+    std::uint32_t heat_most = 0;  ///< Of the heat maps; likewise.
     std::uint64_t samples = 0;
     std::uint64_t truly_lit = 0;
+    std::uint64_t reaching = 0;  ///< Pairs of a light and a sample that it reaches: the fewest computations that do.
 };
 
 /// Runs every request on `frame` and measures it against the truth.
@@ -72,5 +85,14 @@ struct Comparison {
 /// returns: the first failure of a technique, or a report for each request.
 [[nodiscard]] Result<Comparison> compare(Frame const& frame, std::span<RunRequest const> requests,
                                          CompareConfig const& config, core::ExecutorRef executor);
+
+/// Runs every request on `frame` under `lights`, and measures its image against the truth: each light evaluated in
+/// order, in 32 bits, for exactly the samples that it reaches (`deferred-stencil` on the CPU).
+///
+/// A sample is wrong if any bit of its radiance differs; of `Measures` only `samples`, `wrong`, `wrong_fraction` and
+/// `radiance_error` say anything.
+[[nodiscard]] Result<Comparison> compare(Frame const& frame, std::span<Light const> lights,
+                                         std::span<LightingRequest const> requests, CompareConfig const& config,
+                                         core::ExecutorRef executor);
 
 }  // namespace gnomon::pipeline
