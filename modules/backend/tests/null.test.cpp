@@ -112,6 +112,35 @@ TEST_CASE("a kernel's call fits the kernel, or says what does not", "[backend][n
     CHECK(refuses(rig.device.run(two_buffers, {10, unknown, {}, constants}), Error::bad_argument, "buffer 9"));
 }
 
+TEST_CASE("a pass of fragments needs colours, what its kernel says, and no alpha tests unless it comes second", "[backend][null]") {
+    constexpr auto no_color = [](backend::KernelData const&, std::span<backend::Fragment const>, std::span<backend::FragmentColor>) {};
+    static constexpr backend::FragmentKernel plain{.name = "plain", .cpu = no_color, .spirv = {}};
+    static constexpr backend::FragmentKernel reads{.name = "reads", .cpu = no_color, .spirv = {}, .targets = 1, .constant_bytes = 8};
+    Rig rig;
+    auto const target = *rig.device.make_target({.size_px = math::ivec2(64, 32), .triangle_ids = true, .color = true});
+    backend::PassLayer layer;
+    CHECK(rig.device.shade(rig.list, target, layer, plain, {})->triangles == 4);
+    CHECK(refuses(rig.device.shade(rig.list, rig.target, layer, plain, {}), Error::bad_argument, "no colours"));
+    CHECK(refuses(rig.device.shade(rig.list, target, layer, reads, {}), Error::bad_argument, "'reads' has 1 targets"));
+    backend::TargetBinding own{target, backend::Plane::triangle};
+    std::array<std::byte, 8> const constants{};
+    CHECK(rig.device.shade(rig.list, target, layer, reads, {.targets = {&own, 1}, .constants = constants}));
+    own.plane = backend::Plane::color;
+    CHECK(refuses(rig.device.shade(rig.list, target, layer, reads, {.targets = {&own, 1}, .constants = constants}),
+                  Error::bad_argument, "tests or writes"));
+    layer.range = backend::DepthRange::clamp;
+    CHECK(refuses(rig.device.shade(rig.list, target, layer, plain, {}), Error::bad_argument, "clipped"));
+    layer.range = backend::DepthRange::clip;
+    backend::AlphaTest const holes{};
+    backend::Draw leaf{.positions = std::span<math::vec3 const>(rig.corners), .indices = {}};
+    leaf.alpha_test = &holes;
+    auto const leaves = *rig.device.keep({&leaf, 1});
+    CHECK(refuses(rig.device.shade(leaves, target, layer, plain, {}), Error::bad_argument, "alpha tests"));
+    CHECK(rig.device.shade(leaves, target, layer, plain, {.test = backend::FragmentTest::visible}));
+    CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(4, 4), .depth = backend::DepthFormat::unorm16, .color = true}),
+                  Error::unsupported_format, "f32"));
+}
+
 TEST_CASE("a part of a target is copied between layers and read whole", "[backend][null]") {
     Rig rig;
     backend::TargetPart part{rig.target, 0, backend::Plane::depth, {0, 0, 8, 4}};

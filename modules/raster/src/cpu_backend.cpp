@@ -6,6 +6,9 @@
 #include <gnomon/raster/layers.hpp>
 #include <gnomon/raster/sample_query.hpp>
 
+#include "shading.hpp"
+
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -67,6 +70,7 @@ struct Target {
     TargetConfig config;
     Bytes depth;
     Bytes triangle;
+    Bytes color;
 
     [[nodiscard]] std::size_t pixels() const noexcept {
         return static_cast<std::size_t>(config.size_px.x) * static_cast<std::size_t>(config.size_px.y);
@@ -90,15 +94,18 @@ struct Target {
         layer.config.scissor = backend::area_of(pass, config.size_px);
         return layer;
     }
+    [[nodiscard]] Bytes const& bytes(Plane plane) const noexcept {
+        return plane == Plane::depth ? depth : plane == Plane::triangle ? triangle : color;
+    }
     [[nodiscard]] backend::TexelView view(Plane plane) const noexcept {
-        return {(plane == Plane::depth ? depth : triangle).data(), config.size_px, config.layers, config.depth, plane};
+        return {bytes(plane).data(), config.size_px, config.layers, config.depth, plane};
     }
     /// The first byte of a row of a part, `y` rows from its top.
     [[nodiscard]] std::byte* row(TargetPart const& part, std::int32_t y) const noexcept {
         std::size_t const at = part.layer * pixels() +
                                static_cast<std::size_t>(part.rect.y + y) * static_cast<std::size_t>(config.size_px.x) +
                                static_cast<std::size_t>(part.rect.x);
-        return (part.plane == Plane::depth ? depth : triangle).data() + at * bytes_per_pixel(config, part.plane);
+        return bytes(part.plane).data() + at * bytes_per_pixel(config, part.plane);
     }
     [[nodiscard]] std::size_t row_bytes(TargetPart const& part) const noexcept {
         return static_cast<std::size_t>(part.rect.width) * bytes_per_pixel(config, part.plane);
@@ -131,6 +138,17 @@ Result<Done> released(bool was_there, std::string_view what, std::uint32_t id) {
 
 }  // namespace
 
+/// The buffers and targets of a kernel's call.
+struct Bound {
+    std::array<std::span<std::byte>, backend::max_kernel_buffers> buffers;
+    std::array<backend::TexelView, backend::max_kernel_targets> targets;
+    std::size_t buffer_count = 0, target_count = 0;
+
+    [[nodiscard]] backend::KernelData data(std::span<std::byte const> constants) const noexcept {
+        return {std::span(buffers).first(buffer_count), std::span(targets).first(target_count), constants};
+    }
+};
+
 struct CpuBackend::State {
     explicit State(core::ExecutorRef e) : executor(e) {}
 
@@ -146,6 +164,22 @@ struct CpuBackend::State {
     std::vector<StageTime> finished;
     Clock::time_point begun;
     bool timing = false;  // The last of `stages` goes on.
+
+    Result<Done> bind(std::string_view verb, std::span<BufferId const> ids, std::span<backend::TargetBinding const> bindings,
+                      Bound& bound) const {
+        for (BufferId const id : ids) {
+            Bytes const* const bytes = buffers.find(id);
+            if (bytes == nullptr) return backend::unknown_id(verb, "buffer", id.value);
+            bound.buffers[bound.buffer_count++] = {bytes->data(), bytes->size()};
+        }
+        for (backend::TargetBinding const& binding : bindings) {
+            Target const* const target = targets.find(binding.target);
+            if (target == nullptr) return backend::unknown_id(verb, "target", binding.target.value);
+            if (auto ok = backend::check_part(verb, {binding.target, 0, binding.plane, {}}, target->config); !ok) return ok;
+            bound.targets[bound.target_count++] = target->view(binding.plane);
+        }
+        return Done{};
+    }
 
     void end_stage() {
         Clock::time_point const now = Clock::now();
@@ -181,12 +215,18 @@ Result<DrawListId> CpuBackend::keep(std::span<Draw const> draws) {
 
 Result<TargetId> CpuBackend::make_target(TargetConfig const& config) {
     if (auto ok = backend::check(config, limits()); !ok) return std::move(ok).failure();
-    Target target{config, {}, {}};
+    Target target{config, {}, {}, {}};
     std::size_t const pixels = target.pixels() * config.layers;
-    target.depth = Bytes(pixels * bytes_per_pixel(config, Plane::depth));
-    if (config.triangle_ids) target.triangle = Bytes(pixels * bytes_per_pixel(config, Plane::triangle));
-    if (target.depth.is_missing() || (config.triangle_ids && target.triangle.is_missing()))
-        return no_room("make_target", pixels * (config.triangle_ids ? 8U : bytes_per_pixel(config, Plane::depth)));
+    std::size_t bytes = 0;
+    auto const make = [&](bool wanted, Bytes& plane, Plane which) {
+        if (wanted) plane = Bytes(pixels * bytes_per_pixel(config, which));
+        bytes += wanted ? pixels * bytes_per_pixel(config, which) : 0;
+        return !wanted || !plane.is_missing();
+    };
+    bool const fits_depth = make(true, target.depth, Plane::depth);
+    bool const fits_ids = make(config.triangle_ids, target.triangle, Plane::triangle);
+    bool const fits_color = make(config.color, target.color, Plane::color);
+    if (!fits_depth || !fits_ids || !fits_color) return no_room("make_target", bytes);
     return made(state_->targets.insert(std::move(target)), "make_target");
 }
 
@@ -242,6 +282,37 @@ Result<backend::PassCounts> CpuBackend::draw(DrawListId list, TargetId target, s
     return counts;
 }
 
+Result<backend::PassCounts> CpuBackend::shade(DrawListId list, TargetId target, PassLayer const& layer,
+                                              backend::FragmentKernel const& kernel, backend::FragmentCall const& call) {
+    List const* const kept = state_->lists.find(list);
+    if (kept == nullptr) return backend::unknown_id("shade", "draw list", list.value);
+    Target const* const to = state_->targets.find(target);
+    if (to == nullptr) return backend::unknown_id("shade", "target", target.value);
+    backend::ShadedTarget const shaded{target, &to->config, !kept->tests.empty()};
+    if (auto ok = backend::check(kernel, call, layer, shaded, limits()); !ok) return std::move(ok).failure();
+    if (kernel.cpu == nullptr)
+        return core::Failure{Error::missing_feature, "shade: kernel '" + std::string(kernel.name) + "' has no C++ half"};
+    Bound bound;
+    if (auto ok = state_->bind("shade", call.buffers, call.targets, bound); !ok) return std::move(ok).failure();
+    backend::KernelData const data = bound.data(call.constants);
+    ImageView<math::vec4> const color = to->image<math::vec4>(to->color, layer.layer);
+    Layer drawn = to->layer(layer);
+    drawn.triangle = {};
+    if (call.color == backend::Load::clear) {
+        backend::Rect const area = backend::area_of(layer, to->config.size_px);
+        for (std::int32_t y = area.y; y < area.y + area.height; ++y)
+            std::fill_n(color.row(y) + area.x, area.width, math::vec4(0.0F));
+    }
+    shading_pass(kept->draws, drawn, {kernel.cpu, &data, color, call.test, call.blend}, state_->passes, state_->executor);
+    backend::PassCounts counts;
+    for (Draw const& draw : kept->draws) {
+        if ((draw.groups & layer.groups) == 0) continue;
+        counts.triangles += std::uint64_t{triangle_count(draw)} * draw.instances.size();
+        ++counts.draw_calls;
+    }
+    return counts;
+}
+
 Result<Done> CpuBackend::count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
                                        BufferId counts, std::size_t first) {
     Target const* const in = state_->targets.find(target);
@@ -261,23 +332,9 @@ Result<Done> CpuBackend::run(backend::Kernel const& kernel, backend::KernelCall 
     if (auto ok = backend::check(kernel, call); !ok) return ok;
     if (kernel.cpu == nullptr)
         return core::Failure{Error::missing_feature, "run: kernel '" + std::string(kernel.name) + "' has no C++ half"};
-    std::array<std::span<std::byte>, backend::max_kernel_buffers> buffers;
-    for (std::size_t i = 0; i < call.buffers.size(); ++i) {
-        Bytes const* const bytes = state_->buffers.find(call.buffers[i]);
-        if (bytes == nullptr) return backend::unknown_id("run", "buffer", call.buffers[i].value);
-        buffers[i] = {bytes->data(), bytes->size()};
-    }
-    std::array<backend::TexelView, backend::max_kernel_targets> targets;
-    for (std::size_t i = 0; i < call.targets.size(); ++i) {
-        backend::TargetBinding const& binding = call.targets[i];
-        Target const* const target = state_->targets.find(binding.target);
-        if (target == nullptr) return backend::unknown_id("run", "target", binding.target.value);
-        if (auto ok = backend::check_part("run", {binding.target, 0, binding.plane, {}}, target->config); !ok)
-            return ok;
-        targets[i] = target->view(binding.plane);
-    }
-    backend::KernelData const data{std::span(buffers).first(call.buffers.size()),
-                                   std::span(targets).first(call.targets.size()), call.constants};
+    Bound bound;
+    if (auto ok = state_->bind("run", call.buffers, call.targets, bound); !ok) return ok;
+    backend::KernelData const data = bound.data(call.constants);
     state_->executor.parallel_for(call.count, kernel.grain,
                                   [&](std::size_t begin, std::size_t end) { kernel.cpu(data, begin, end); });
     return Done{};

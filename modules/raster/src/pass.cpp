@@ -4,9 +4,11 @@
 #include <gnomon/raster/layers.hpp>
 
 #include "plan.hpp"
+#include "shading.hpp"
 #include "tile_io.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace gnomon::raster {
@@ -72,7 +74,8 @@ namespace {
 /// One pass over its layers, batch of triangles by batch.
 class Pass {
   public:
-    Pass(Workspace::State& state, core::ExecutorRef executor) : state_(state), plan_(state.plan), executor_(executor) {}
+    Pass(Workspace::State& state, detail::Shading const* shading, core::ExecutorRef executor)
+        : state_(state), plan_(state.plan), shading_(shading), executor_(executor) {}
 
     void run() {
         state_.batches.assign(plan_.layers.size(), LayerBatch{});
@@ -269,15 +272,20 @@ class Pass {
         bool loaded = batch.load == Load::clear;
         if (loaded) detail::load_tile(layer, job, batch.load);
         std::uint64_t written = 0;
+        std::optional<detail::FragmentBatch> fragments;
+        if (shading_ != nullptr) fragments.emplace(*shading_);
         for (std::size_t c = 0; c < batch.chunks; ++c) {
             Chunk const& chunk = state_.chunks[batch.first_chunk + c];
             detail::for_each_run(layer.grid, state_.bins.data() + chunk.first_bin, chunk.entries.data(), tile_x, tile_y,
                                  [&](std::uint32_t const* entries, std::size_t count) {
                                      if (!loaded) detail::load_tile(layer, job, batch.load);
                                      loaded = true;
-                                     written += layer.kernel->tile(job, chunk.records.data(), entries, count);
+                                     written += fragments ? detail::shade_records(job, *fragments, chunk.records.data(),
+                                                                                  {entries, count})
+                                                          : layer.kernel->tile(job, chunk.records.data(), entries, count);
                                  });
         }
+        if (fragments) fragments->flush();
         if (loaded) detail::store_tile(layer, job);
         if (loaded && layer.summarizes) detail::summarize_tile(layer, job, batch.load == Load::clear && written == 0);
         return written;
@@ -294,6 +302,7 @@ class Pass {
 
     Workspace::State& state_;
     detail::Plan& plan_;
+    detail::Shading const* shading_;  // Or null.
     core::ExecutorRef executor_;
     std::size_t chunk_count_ = 0;
     std::size_t tile_count_ = 0;
@@ -306,7 +315,7 @@ std::span<PassStats const> run_pass(std::span<Draw const> draws, std::span<Layer
     Workspace::State& state = workspace.state();
     make_plan(state.plan, draws, layers, draws_own_view, executor);
     detail::prefer_blocks(state.plan);
-    Pass(state, executor).run();
+    Pass(state, nullptr, executor).run();
     return state.plan.stats;
 }
 
@@ -328,6 +337,15 @@ PassStats camera_pass(std::span<Draw const> draws, VisibilityTarget const& targe
 std::span<PassStats const> layered_pass(std::span<Draw const> draws, std::span<Layer const> layers,
                                         Workspace& workspace, core::ExecutorRef executor) {
     return run_pass(draws, layers, false, workspace, executor);
+}
+
+PassStats shading_pass(std::span<Draw const> draws, Layer const& layer, detail::Shading const& shading, Workspace& workspace,
+                       core::ExecutorRef executor) {
+    GNOMON_EXPECT(layer.triangle.data == nullptr && layer.config.pyramid == nullptr);
+    Workspace::State& state = workspace.state();
+    make_plan(state.plan, draws, {&layer, 1}, false, executor);
+    Pass(state, &shading, executor).run();
+    return state.plan.stats[0];
 }
 
 bool has_simd_kernel() noexcept { return detail::simd_kernel() != nullptr; }

@@ -14,10 +14,16 @@ layout(location = 0) in vec3 position_in;
 layout(constant_id = 0) const bool is_masked = false;
 layout(constant_id = 1) const bool clamps_in_shader = false;
 
+#ifdef GNOMON_SHADED
+vec2 uv;
+uint slot;
+float depth_times_w;
+#else
 layout(location = 0) out vec2 uv;
-layout(location = 1) flat out uint triangle;  // Of the item's first triangle; of this one where corners are pulled.
 layout(location = 2) flat out uint slot;
 layout(location = 3) out float depth_times_w;
+#endif
+layout(location = 1) flat out uint triangle;  // Of the item's first triangle; of this one where corners are pulled.
 #ifdef GNOMON_GEOMETRY
 layout(location = 4) flat out uint layer;
 #endif

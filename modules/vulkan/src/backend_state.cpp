@@ -108,6 +108,20 @@ Result<ComputeKernel const*> Backend::State::compiled(backend::Kernel const& ker
     return &kernels.back().compute;
 }
 
+Result<FragmentPipeline*> Backend::State::compiled(backend::FragmentKernel const& kernel) {
+    for (CompiledFragmentKernel& known : fragment_kernels)
+        if (known.kernel == &kernel) return &known.pipeline;
+    if (kernel.spirv.empty())
+        return core::Failure{Error::missing_feature,
+                             "kernel '" + std::string(kernel.name) + "' has no SPIR-V: it shades on the CPU alone"};
+    auto shared = passes();
+    if (!shared) return std::move(shared).failure();
+    auto made = FragmentPipeline::make(*shared, kernel);
+    if (!made) return std::move(made).failure();
+    fragment_kernels.push_back({&kernel, *std::move(made)});
+    return &fragment_kernels.back().pipeline;
+}
+
 Result<PassPipelinesRef> Backend::State::passes() {
     if (pass_pipelines != nullptr) return pass_pipelines;
     auto made = make_pass_pipelines(gpu);

@@ -13,6 +13,8 @@
 #include <gnomon/vulkan/staging.hpp>
 #include <gnomon/vulkan/timestamps.hpp>
 
+#include "fragment_pipeline.hpp"
+
 #include <optional>
 #include <vector>
 
@@ -28,6 +30,11 @@ struct KeptBuffer {
 struct CompiledKernel {
     backend::Kernel const* kernel = nullptr;
     ComputeKernel compute;
+};
+
+struct CompiledFragmentKernel {
+    backend::FragmentKernel const* kernel = nullptr;
+    FragmentPipeline pipeline;
 };
 
 /// A copy to the host that is filled into `out` when the frame has finished.
@@ -51,6 +58,7 @@ struct Backend::State {
     /// Keeps a failure that ends the backend.
     core::Failure<Error> end(core::Failure<Error> failure);
     [[nodiscard]] Result<ComputeKernel const*> compiled(backend::Kernel const& kernel);
+    [[nodiscard]] Result<FragmentPipeline*> compiled(backend::FragmentKernel const& kernel);
     /// Made when the first list is kept.
     [[nodiscard]] Result<PassPipelinesRef> passes();
     /// Made when the first samples are counted.
@@ -81,6 +89,7 @@ struct Backend::State {
     backend::Slots<backend::TargetId, Target> targets;
     backend::Slots<backend::BufferId, KeptBuffer> buffers;
     std::vector<CompiledKernel> kernels;
+    std::vector<CompiledFragmentKernel> fragment_kernels;
     std::vector<PendingRead> reads;
     std::vector<backend::DrawListId> uploading;  ///< Kept in this frame: their staging goes when it has finished.
     std::vector<DrawList> retired_lists;
@@ -102,6 +111,7 @@ struct PlaneImage {
 [[nodiscard]] inline PlaneImage image_of(Target const& target, backend::Plane plane) noexcept {
     if (plane == backend::Plane::triangle)
         return {target.triangle_image(), target.triangle_view(), VK_IMAGE_ASPECT_COLOR_BIT};
+    if (plane == backend::Plane::color) return {target.color_image(), target.color_view(), VK_IMAGE_ASPECT_COLOR_BIT};
     return {target.depth_image(), target.depth_view(), VK_IMAGE_ASPECT_DEPTH_BIT};
 }
 

@@ -27,8 +27,6 @@ Result<core::Done> make_set(DrawList::State& state) {
     VkWriteDescriptorSet writes[binding_count]{};
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < binding_count; ++i) {
-        bool const is_corner = i == binding_positions || i == binding_indices;
-        if (is_corner && !state.pipelines->reads_corners()) continue;  // No shader reads it.
         bool const changes = i == binding_views || i == binding_matrices;
         buffers[i] = {changes ? state.changing.handle.get() : state.fixed.handle.get(), state.bound[i].offset,
                       state.bound[i].size};

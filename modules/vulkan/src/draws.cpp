@@ -130,8 +130,7 @@ Result<core::Done> check_limits(DrawList::State const& state, detail::StagedDraw
                                                    ": split it"};
     };
     for (std::uint32_t i = detail::binding_items; i < detail::binding_count; ++i) {
-        bool const is_corner = i == detail::binding_positions || i == detail::binding_indices;
-        if (state.bound[i].size > limits.maxStorageBufferRange && (!is_corner || state.pipelines->reads_corners()))
+        if (state.bound[i].size > limits.maxStorageBufferRange)
             return too_large("an array of bytes:", state.bound[i].size, "maxStorageBufferRange",
                              limits.maxStorageBufferRange);
     }

@@ -48,7 +48,7 @@ constexpr VkDynamicState dynamic_states[] = {
 
 /// What no pass changes, and the few that a kind sets.
 struct FixedState {
-    explicit FixedState(GraphicsPipeline const& config) noexcept : color_format(config.color_format) {
+    explicit FixedState(GraphicsPipeline const& config) noexcept : color_format(config.color_format), blend_of(config.blend) {
         input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
         if (config.has_positions) {
             input.vertexBindingDescriptionCount = 1;
@@ -69,11 +69,10 @@ struct FixedState {
         samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
         depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
         depth.depthTestEnable = VK_TRUE;
-        blend_of_id.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         bool const has_color = config.color_format != VK_FORMAT_UNDEFINED;
         blend.attachmentCount = has_color ? 1 : 0;
-        blend.pAttachments = &blend_of_id;
+        blend.pAttachments = &blend_of;
         dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
         dynamic.dynamicStateCount = static_cast<std::uint32_t>(std::size(dynamic_states));
         dynamic.pDynamicStates = dynamic_states;
@@ -86,13 +85,13 @@ struct FixedState {
     FixedState& operator=(FixedState const&) = delete;
 
     VkFormat color_format;
+    VkPipelineColorBlendAttachmentState blend_of;
     VkPipelineVertexInputStateCreateInfo input{};
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     VkPipelineViewportStateCreateInfo viewport{};
     VkPipelineRasterizationStateCreateInfo raster{};
     VkPipelineMultisampleStateCreateInfo samples{};
     VkPipelineDepthStencilStateCreateInfo depth{};
-    VkPipelineColorBlendAttachmentState blend_of_id{};
     VkPipelineColorBlendStateCreateInfo blend{};
     VkPipelineDynamicStateCreateInfo dynamic{};
     VkPipelineRenderingCreateInfo rendering{};

@@ -22,6 +22,16 @@ struct GraphicsPipeline {
     bool depth_clamp = false;
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
     VkFormat color_format = VK_FORMAT_UNDEFINED;  ///< Or none.
+    VkPipelineColorBlendAttachmentState blend{
+        .blendEnable = VK_FALSE,
+        .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstColorBlendFactor = VK_BLEND_FACTOR_ZERO,
+        .colorBlendOp = VK_BLEND_OP_ADD,
+        .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+        .dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO,
+        .alphaBlendOp = VK_BLEND_OP_ADD,
+        .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT,
+    };
     std::array<VkBool32, 3> constants{};          ///< constant_id 0, 1, 2 of every stage.
 };
 

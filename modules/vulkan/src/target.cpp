@@ -15,6 +15,9 @@ struct Access {
     VkAccessFlags2 triangle_access;
 };
 
+/// The same for colours: as triangles, but for what shading does.
+Access color_access_of(TargetUse use) noexcept;
+
 Access access_of(TargetUse use) noexcept {
     constexpr VkPipelineStageFlags2 tests =
         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
@@ -30,6 +33,10 @@ Access access_of(TargetUse use) noexcept {
             return {VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, tests, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+        case TargetUse::shade:
+            return {VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, tests, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
         case TargetUse::count:
             return {Target::sampled_layout, tests, tests, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, 0};
         case TargetUse::sample:
@@ -43,15 +50,27 @@ Access access_of(TargetUse use) noexcept {
     return {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0, 0, 0};
 }
 
+Access color_access_of(TargetUse use) noexcept { return access_of(use == TargetUse::shade ? TargetUse::draw : use); }
+
+/// What a use finds the triangle ids in.
+VkImageLayout triangle_layout_of(TargetUse use) noexcept {
+    return use == TargetUse::shade ? Target::sampled_layout : access_of(use).layout;
+}
+
 constexpr bool only_reads(TargetUse use) noexcept {
     return use == TargetUse::count || use == TargetUse::sample || use == TargetUse::copy_from;
 }
 
-VkImageMemoryBarrier2 image_barrier(Image const& image, Access const& from, Access const& to) noexcept {
+struct Layouts {
+    VkImageLayout from;
+    VkImageLayout to;
+};
+
+VkImageMemoryBarrier2 image_barrier(Image const& image, Layouts const& layouts) noexcept {
     VkImageMemoryBarrier2 barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-    barrier.oldLayout = from.layout;
-    barrier.newLayout = to.layout;
+    barrier.oldLayout = layouts.from;
+    barrier.newLayout = layouts.to;
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image.handle.get();
@@ -105,6 +124,16 @@ Result<Target> make_target(GpuRef const& gpu, backend::TargetConfig const& confi
         if (!triangle) return std::move(triangle).failure();
         target.triangle_ = *std::move(triangle);
     }
+    if (config.color) {
+        image.format = color_format;
+        image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | common_usage;
+        auto color = make_image(gpu, image);
+        if (!color) return std::move(color).failure();
+        target.color_ = *std::move(color);
+        auto color_views = make_layer_views(gpu, target.color_);
+        if (!color_views) return std::move(color_views).failure();
+        target.color_views_ = *std::move(color_views);
+    }
     auto depth_views = make_layer_views(gpu, target.depth_);
     if (!depth_views) return std::move(depth_views).failure();
     target.depth_views_ = *std::move(depth_views);
@@ -126,30 +155,33 @@ VkImageView Target::triangle_view_of(std::uint32_t layer) const noexcept {
     return layer < triangle_views_.size() ? triangle_views_[layer].get() : VK_NULL_HANDLE;
 }
 
+VkImageView Target::color_view_of(std::uint32_t layer) const noexcept {
+    return layer < color_views_.size() ? color_views_[layer].get() : VK_NULL_HANDLE;
+}
+
 void Target::prepare(VkCommandBuffer commands, TargetUse use) {
     if (use == use_ && only_reads(use)) return;
+    VkImageMemoryBarrier2 barriers[3];
+    std::uint32_t count = 0;
+    auto const add = [&](Image const& image, Access const& from, Access const& to, Layouts const& layouts, bool depth) {
+        VkImageMemoryBarrier2& barrier = barriers[count++] = image_barrier(image, layouts);
+        barrier.srcStageMask = depth ? from.depth_stages : from.triangle_stages;
+        barrier.srcAccessMask = only_reads(use_) ? 0 : depth ? from.depth_access : from.triangle_access;
+        barrier.dstStageMask = depth ? to.depth_stages : to.triangle_stages;
+        barrier.dstAccessMask = depth ? to.depth_access : to.triangle_access;
+    };
     Access const from = access_of(use_);
     Access const to = access_of(use);
-    VkImageMemoryBarrier2 barriers[2] = {image_barrier(depth_, from, to), {}};
-    barriers[0].srcStageMask = from.depth_stages;
-    barriers[0].srcAccessMask = only_reads(use_) ? 0 : from.depth_access;
-    barriers[0].dstStageMask = to.depth_stages;
-    barriers[0].dstAccessMask = to.depth_access;
+    add(depth_, from, to, {from.layout, to.layout}, true);
+    if (config_.triangle_ids) add(triangle_, from, to, {triangle_layout_of(use_), triangle_layout_of(use)}, false);
+    if (config_.color) add(color_, color_access_of(use_), color_access_of(use), {from.layout, to.layout}, false);
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.imageMemoryBarrierCount = 1;
+    info.imageMemoryBarrierCount = count;
     info.pImageMemoryBarriers = barriers;
-    if (config_.triangle_ids) {
-        barriers[1] = image_barrier(triangle_, from, to);
-        barriers[1].srcStageMask = from.triangle_stages;
-        barriers[1].srcAccessMask = only_reads(use_) ? 0 : from.triangle_access;
-        barriers[1].dstStageMask = to.triangle_stages;
-        barriers[1].dstAccessMask = to.triangle_access;
-        info.imageMemoryBarrierCount = 2;
-    }
     gpu_->call.CmdPipelineBarrier2(commands, &info);
     use_ = use;
-    is_defined_ = is_defined_ || use == TargetUse::draw || use == TargetUse::copy_to || use == TargetUse::copy_within;
+    is_defined_ = is_defined_ || use == TargetUse::draw || use == TargetUse::shade || use == TargetUse::copy_to || use == TargetUse::copy_within;
 }
 
 }  // namespace gnomon::vulkan

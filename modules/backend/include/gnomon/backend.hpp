@@ -5,6 +5,7 @@
 #include <gnomon/backend/draw.hpp>
 #include <gnomon/backend/error.hpp>
 #include <gnomon/backend/forward.hpp>
+#include <gnomon/backend/fragment.hpp>
 #include <gnomon/backend/instances.hpp>
 #include <gnomon/backend/kernel.hpp>
 #include <gnomon/backend/null.hpp>

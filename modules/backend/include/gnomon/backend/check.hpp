@@ -4,6 +4,7 @@
 // Nothing here allocates unless it refuses.
 
 #include <gnomon/backend/error.hpp>
+#include <gnomon/backend/fragment.hpp>
 #include <gnomon/backend/kernel.hpp>
 #include <gnomon/backend/pass.hpp>
 #include <gnomon/backend/verbs.hpp>
@@ -72,7 +73,7 @@ namespace detail {
             std::to_string(target.layers) + " layers; there may be " + std::to_string(limits.target_layers));
     std::uint64_t const bytes = std::uint64_t{static_cast<std::uint32_t>(target.size_px.x)} *
                                 static_cast<std::uint32_t>(target.size_px.y) * target.layers *
-                                bytes_per_pixel(target, Plane::depth);
+                                bytes_per_pixel(target, target.color ? Plane::color : Plane::depth);
     if (bytes > limits.target_bytes)
         return detail::refuse(Error::too_large, "make_target",
                               std::to_string(target.layers) + " layers of " + detail::text(target.size_px) +
@@ -80,6 +81,8 @@ namespace detail {
                                   std::to_string(limits.target_bytes >> 20U));
     if (target.triangle_ids && target.depth != DepthFormat::f32)
         return detail::refuse(Error::unsupported_format, "make_target", "triangle ids need depth format f32");
+    if (target.color && target.depth != DepthFormat::f32)
+        return detail::refuse(Error::unsupported_format, "make_target", "colours need depth format f32");
     return Done{};
 }
 
@@ -150,6 +153,8 @@ inline constexpr std::size_t max_compared_layers = 64;
             "layer " + std::to_string(part.layer) + " of a target of " + std::to_string(target.layers));
     if (part.plane == Plane::triangle && !target.triangle_ids)
         return detail::refuse(Error::bad_argument, verb, "the target has no triangle ids");
+    if (part.plane == Plane::color && !target.color)
+        return detail::refuse(Error::bad_argument, verb, "the target has no colours");
     Rect const& r = part.rect;
     bool const inside = r.x >= 0 && r.y >= 0 && r.width >= 0 && r.height >= 0 && r.x <= target.size_px.x - r.width &&
                         r.y <= target.size_px.y - r.height;
@@ -183,27 +188,64 @@ inline constexpr std::size_t max_compared_layers = 64;
     return Done{};
 }
 
-/// How a call's arguments fit the kernel; that their ids exist is for the backend to see.
-[[nodiscard]] inline Result<Done> check(Kernel const& kernel, KernelCall const& call) {
-    constexpr std::string_view verb = "run";
+namespace detail {
+
+/// A kernel or a fragment kernel, and its call.
+template <class AnyKernel, class Call>
+[[nodiscard]] Result<Done> check_fits(std::string_view verb, AnyKernel const& kernel, Call const& call,
+                                      std::size_t most_constants) {
     auto const differs = [&](char const* what, std::size_t given, std::size_t wanted) {
-        return detail::refuse(Error::bad_argument, verb,
-                              "kernel '" + std::string(kernel.name) + "' has " + std::to_string(wanted) + " " + what +
-                                  ", not the " + std::to_string(given) + " given");
+        return refuse(Error::bad_argument, verb,
+                      "kernel '" + std::string(kernel.name) + "' has " + std::to_string(wanted) + " " + what +
+                          ", not the " + std::to_string(given) + " given");
     };
     if (call.buffers.size() != kernel.buffers) return differs("buffers", call.buffers.size(), kernel.buffers);
     if (call.targets.size() != kernel.targets) return differs("targets", call.targets.size(), kernel.targets);
     if (call.constants.size() != kernel.constant_bytes)
         return differs("bytes of constants", call.constants.size(), kernel.constant_bytes);
     if (kernel.buffers > max_kernel_buffers || kernel.targets > max_kernel_targets ||
-        kernel.constant_bytes > max_constant_bytes || kernel.constant_bytes % 4 != 0)
-        return detail::refuse(Error::too_large, verb,
-                              "kernel '" + std::string(kernel.name) + "' may have " +
-                                  std::to_string(max_kernel_buffers) + " buffers, " +
-                                  std::to_string(max_kernel_targets) + " targets and " +
-                                  std::to_string(max_constant_bytes) + " bytes of constants in fours");
+        kernel.constant_bytes > most_constants || kernel.constant_bytes % 4 != 0)
+        return refuse(Error::too_large, verb,
+                      "kernel '" + std::string(kernel.name) + "' may have " + std::to_string(max_kernel_buffers) +
+                          " buffers, " + std::to_string(max_kernel_targets) + " targets and " +
+                          std::to_string(most_constants) + " bytes of constants in fours");
+    return Done{};
+}
+
+}  // namespace detail
+
+/// How a call's arguments fit the kernel; that their ids exist is for the backend to see.
+[[nodiscard]] inline Result<Done> check(Kernel const& kernel, KernelCall const& call) {
+    if (auto ok = detail::check_fits("run", kernel, call, max_constant_bytes); !ok) return ok;
     if (call.count > 0xFFFF'FFFFU - kernel_local_size)
-        return detail::refuse(Error::too_large, verb, std::to_string(call.count) + " items; 2^32 - 65 may be");
+        return detail::refuse(Error::too_large, "run", std::to_string(call.count) + " items; 2^32 - 65 may be");
+    return Done{};
+}
+
+/// What `shade` draws into.
+struct ShadedTarget {
+    TargetId id;
+    TargetConfig const* config = nullptr;
+    bool list_has_alpha_tests = false;
+};
+
+/// The same of a fragment kernel, and what its target must be.
+[[nodiscard]] inline Result<Done> check(FragmentKernel const& kernel, FragmentCall const& call, PassLayer const& layer,
+                                        ShadedTarget const& target, Limits const& limits) {
+    constexpr std::string_view verb = "shade";
+    if (auto ok = check_layer(verb, layer, *target.config, limits); !ok) return ok;
+    if (auto ok = detail::check_fits(verb, kernel, call, max_fragment_constant_bytes); !ok) return ok;
+    if (!target.config->color) return detail::refuse(Error::bad_argument, verb, "the target has no colours");
+    if (layer.range != DepthRange::clip)
+        return detail::refuse(Error::bad_argument, verb, "depths are clipped to their range, never clamped");
+    if (target.list_has_alpha_tests && call.test == FragmentTest::nearer)
+        return detail::refuse(Error::bad_argument, verb,
+                              "the list has alpha tests, which early depth tests exclude: draw it, then shade what is visible");
+    for (TargetBinding const& binding : call.targets)
+        if (binding.target == target.id && binding.plane != Plane::triangle)
+            return detail::refuse(Error::bad_argument, verb,
+                                  "the kernel reads a plane of target " + std::to_string(target.id.value) +
+                                      " that the pass tests or writes");
     return Done{};
 }
 

@@ -36,6 +36,10 @@ class Forward : public Backend {
     Result<PassCounts> draw(DrawListId list, TargetId target, std::span<PassLayer const> layers) override {
         return to_->draw(list, target, layers);
     }
+    Result<PassCounts> shade(DrawListId list, TargetId target, PassLayer const& layer, FragmentKernel const& kernel,
+                             FragmentCall const& call) override {
+        return to_->shade(list, target, layer, kernel, call);
+    }
     Result<Done> count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
                                BufferId counts, std::size_t first) override {
         return to_->count_samples(boxes, target, view, counts, first);

@@ -32,6 +32,7 @@ class NullBackend final : public Backend {
         for (Draw const& draw : draws) {
             list.groups.push_back(draw.groups);
             list.triangles.push_back(std::uint64_t{triangle_count(draw)} * draw.instances.size());
+            list.has_alpha_tests = list.has_alpha_tests || draw.alpha_test != nullptr;
         }
         return made(lists_.insert(std::move(list)), "keep");
     }
@@ -62,11 +63,18 @@ class NullBackend final : public Backend {
         TargetConfig const* const config = targets_.find(target);
         if (config == nullptr) return unknown_id("draw", "target", target.value);
         if (auto ok = check_layers(layers, *config, limits_); !ok) return std::move(ok).failure();
-        PassCounts counts;
-        for (PassLayer const& layer : layers)
-            for (std::size_t i = 0; i < kept->groups.size(); ++i)
-                if ((kept->groups[i] & layer.groups) != 0) counts.triangles += kept->triangles[i];
-        return counts;
+        return kept->counts(layers);
+    }
+    Result<PassCounts> shade(DrawListId list, TargetId target, PassLayer const& layer, FragmentKernel const& kernel,
+                             FragmentCall const& call) override {
+        List const* const kept = lists_.find(list);
+        if (kept == nullptr) return unknown_id("shade", "draw list", list.value);
+        TargetConfig const* const config = targets_.find(target);
+        if (config == nullptr) return unknown_id("shade", "target", target.value);
+        ShadedTarget const to{target, config, kept->has_alpha_tests};
+        if (auto ok = check(kernel, call, layer, to, limits_); !ok) return std::move(ok).failure();
+        if (auto ok = check_ids("shade", call.buffers, call.targets); !ok) return std::move(ok).failure();
+        return kept->counts({&layer, 1});
     }
     Result<Done> count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
                                BufferId counts, std::size_t first) override {
@@ -79,14 +87,7 @@ class NullBackend final : public Backend {
     }
     Result<Done> run(Kernel const& kernel, KernelCall const& call) override {
         if (auto ok = check(kernel, call); !ok) return ok;
-        for (BufferId const buffer : call.buffers)
-            if (buffers_.find(buffer) == nullptr) return unknown_id("run", "buffer", buffer.value);
-        for (TargetBinding const& binding : call.targets) {
-            TargetConfig const* const config = targets_.find(binding.target);
-            if (config == nullptr) return unknown_id("run", "target", binding.target.value);
-            if (auto ok = check_part("run", {binding.target, 0, binding.plane, {}}, *config); !ok) return ok;
-        }
-        return Done{};
+        return check_ids("run", call.buffers, call.targets);
     }
     Result<Done> copy(TargetPart const& from, TargetId to, std::uint32_t layer, math::ivec2 const& at) override {
         TargetConfig const* const source = targets_.find(from.target);
@@ -120,7 +121,29 @@ class NullBackend final : public Backend {
     struct List {
         std::vector<std::uint64_t> groups;
         std::vector<std::uint64_t> triangles;
+        bool has_alpha_tests = false;
+
+        [[nodiscard]] PassCounts counts(std::span<PassLayer const> layers) const noexcept {
+            PassCounts counts;
+            for (PassLayer const& layer : layers)
+                for (std::size_t i = 0; i < groups.size(); ++i)
+                    if ((groups[i] & layer.groups) != 0) counts.triangles += triangles[i];
+            return counts;
+        }
     };
+
+    /// That the ids of a call exist, and their planes.
+    Result<Done> check_ids(std::string_view verb, std::span<BufferId const> buffers,
+                           std::span<TargetBinding const> targets) const {
+        for (BufferId const buffer : buffers)
+            if (buffers_.find(buffer) == nullptr) return unknown_id(verb, "buffer", buffer.value);
+        for (TargetBinding const& binding : targets) {
+            TargetConfig const* const config = targets_.find(binding.target);
+            if (config == nullptr) return unknown_id(verb, "target", binding.target.value);
+            if (auto ok = check_part(verb, {binding.target, 0, binding.plane, {}}, *config); !ok) return ok;
+        }
+        return Done{};
+    }
 
     template <class Id>
     static Result<Id> made(Id id, std::string_view verb) {

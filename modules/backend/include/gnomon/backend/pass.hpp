@@ -43,6 +43,7 @@ enum class DepthFormat : std::uint8_t {
 enum class Plane : std::uint8_t {
     depth,
     triangle,  ///< Ids of 32 bits: `Draw::first_triangle` + the triangle's place.
+    color,     ///< Four floats, which only `shade` writes.
 };
 
 /// An image to draw into: array layers of one size, each with a depth and, if asked for, a triangle id a pixel.
@@ -51,9 +52,11 @@ struct TargetConfig {
     std::uint32_t layers = 1;  ///< 6 for a cube, 1 for an atlas.
     DepthFormat depth = DepthFormat::f32;
     bool triangle_ids = false;  ///< Passes write ids too; needs `DepthFormat::f32`.
+    bool color = false;         ///< For `shade`; needs `DepthFormat::f32`.
 };
 
 [[nodiscard]] constexpr std::size_t bytes_per_pixel(TargetConfig const& target, Plane plane) noexcept {
+    if (plane == Plane::color) return 16;
     return plane == Plane::depth && target.depth == DepthFormat::unorm16 ? 2 : 4;
 }
 

@@ -7,6 +7,7 @@
 
 #include <gnomon/backend/draw.hpp>
 #include <gnomon/backend/error.hpp>
+#include <gnomon/backend/fragment.hpp>
 #include <gnomon/backend/kernel.hpp>
 #include <gnomon/backend/pass.hpp>
 #include <gnomon/math/bounds.hpp>
@@ -79,6 +80,14 @@ class Backend {
     /// expects: no pixel in two layers' areas; which pixels those are is said at `PassLayer`.
     /// returns: what was asked for; data that cannot be drawn (an index out of range, a NaN) is left out when drawn.
     virtual Result<PassCounts> draw(DrawListId list, TargetId target, std::span<PassLayer const> layers) = 0;
+    /// Draws a list into an area of a target as `draw` does, and gives each fragment that passes the test its colour.
+    ///
+    /// Fragments of a pixel take effect in the order of the draws. Triangle ids stay as they are. Alpha tests are not made:
+    /// a list that has some is drawn first, then shaded with `FragmentTest::visible`; `nearer` refuses it.
+    /// expects: a target with colours; `layer.range` clips; of one `draw` and the `shade` after it the same list, layer and
+    ///          views, where it is `visible`.
+    virtual Result<PassCounts> shade(DrawListId list, TargetId target, PassLayer const& layer,
+                                     FragmentKernel const& kernel, FragmentCall const& call) = 0;
     /// Writes to `counts[first + i]`, 32 bits each, at how many samples of the view's area box i would pass the depth
     /// test if its faces were drawn, both sides; nothing is drawn. `view.load` and `view.groups` are not looked at.
     ///

@@ -45,6 +45,9 @@ class CpuBackend final : public backend::Backend {
     /// returns: counts whose `draw_calls` is one for each draw and layer that takes it.
     backend::Result<backend::PassCounts> draw(backend::DrawListId list, backend::TargetId target,
                                               std::span<backend::PassLayer const> layers) override;
+    backend::Result<backend::PassCounts> shade(backend::DrawListId list, backend::TargetId target,
+                                               backend::PassLayer const& layer, backend::FragmentKernel const& kernel,
+                                               backend::FragmentCall const& call) override;
     /// Exact: a sample counts once, however many faces pass there. See `count_samples_passing`.
     backend::Result<backend::Done> count_samples(std::span<math::Aabb const> boxes, backend::TargetId target,
                                                  backend::PassLayer const& view, backend::BufferId counts,

@@ -53,6 +53,9 @@ class Backend final : public backend::Backend {
                                       std::span<std::byte const> bytes) override;
     backend::Result<backend::PassCounts> draw(backend::DrawListId list, backend::TargetId target,
                                               std::span<backend::PassLayer const> layers) override;
+    backend::Result<backend::PassCounts> shade(backend::DrawListId list, backend::TargetId target,
+                                               backend::PassLayer const& layer, backend::FragmentKernel const& kernel,
+                                               backend::FragmentCall const& call) override;
     backend::Result<core::Done> count_samples(std::span<math::Aabb const> boxes, backend::TargetId target,
                                               backend::PassLayer const& view, backend::BufferId counts,
                                               std::size_t first) override;

@@ -55,8 +55,6 @@ class PassPipelines {
     [[nodiscard]] bool tests_alpha_exactly() const noexcept {
         return config_.alpha_tests && gpu_->features.shader_float64 && gpu_->features.geometry_shader;
     }
-    /// Whether shaders read positions and indices as storage buffers.
-    [[nodiscard]] bool reads_corners() const noexcept { return pulls_ids() || tests_alpha_exactly(); }
 
   private:
     friend Result<std::shared_ptr<PassPipelines const>> make_pass_pipelines(GpuRef const& gpu,

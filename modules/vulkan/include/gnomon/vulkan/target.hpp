@@ -13,6 +13,7 @@ namespace gnomon::vulkan {
 enum class TargetUse : std::uint8_t {
     nothing,      ///< Not used yet: holds anything.
     draw,         ///< Passes.
+    shade,        ///< Passes that shade: they read the triangle ids.
     count,        ///< Depth tests that write nothing: occlusion queries.
     sample,       ///< Shaders of any stage read it, in `sampled_layout`.
     copy_from,    ///< Copies read it.
@@ -20,7 +21,10 @@ enum class TargetUse : std::uint8_t {
     copy_within,  ///< Copies from one layer to another.
 };
 
-/// A depth image array, and one of triangle ids (VK_FORMAT_R32_UINT) where `config().triangle_ids`.
+inline constexpr VkFormat color_format = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+/// A depth image array, one of triangle ids (VK_FORMAT_R32_UINT) where `config().triangle_ids`, and one of colours
+/// (`color_format`) where `config().color`.
 ///
 /// Keeps book of its images' layout as commands are recorded: record in the order in which you submit. Usage flags:
 /// attachment, sampled, transfer source and destination.
@@ -37,6 +41,9 @@ class Target {
     /// Null without ids.
     [[nodiscard]] VkImage triangle_image() const noexcept { return triangle_.handle.get(); }
     [[nodiscard]] VkImageView triangle_view() const noexcept { return triangle_.array_view.get(); }
+    /// Null without colours.
+    [[nodiscard]] VkImage color_image() const noexcept { return color_.handle.get(); }
+    [[nodiscard]] VkImageView color_view() const noexcept { return color_.array_view.get(); }
 
     /// The layout that all commands recorded so far leave the images in.
     [[nodiscard]] VkImageLayout layout() const noexcept;
@@ -48,6 +55,10 @@ class Target {
     /// One layer, VK_IMAGE_VIEW_TYPE_2D. Ids have such views only where the device draws one layer at a time.
     [[nodiscard]] VkImageView depth_view_of(std::uint32_t layer) const noexcept;
     [[nodiscard]] VkImageView triangle_view_of(std::uint32_t layer) const noexcept;
+    [[nodiscard]] VkImageView color_view_of(std::uint32_t layer) const noexcept;
+    /// Whether a pass has shaded it: before, colours are anything.
+    [[nodiscard]] bool is_shaded() const noexcept { return is_shaded_; }
+    void set_shaded() noexcept { is_shaded_ = true; }
 
   private:
     friend Result<Target> make_target(GpuRef const& gpu, backend::TargetConfig const& config);
@@ -56,10 +67,13 @@ class Target {
     backend::TargetConfig config_;
     Image depth_;
     Image triangle_;
+    Image color_;
     std::vector<UniqueImageView> depth_views_;
     std::vector<UniqueImageView> triangle_views_;
+    std::vector<UniqueImageView> color_views_;
     TargetUse use_ = TargetUse::nothing;
     bool is_defined_ = false;
+    bool is_shaded_ = false;
 };
 
 /// returns: the target; or `bad_argument`, `unsupported_format` (depth formats are D32_SFLOAT and D16_UNORM) or
