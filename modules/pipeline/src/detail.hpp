@@ -74,5 +74,6 @@ struct AlphaRule {
 [[nodiscard]] LightingTechnique deferred_stencil_technique() noexcept;
 [[nodiscard]] LightingTechnique tiled_deferred_technique() noexcept;
 [[nodiscard]] LightingTechnique clustered_deferred_technique() noexcept;
+[[nodiscard]] LightingTechnique clustered_deferred_device_technique() noexcept;
 
 }  // namespace gnomon::pipeline

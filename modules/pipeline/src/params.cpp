@@ -20,9 +20,10 @@ std::array<Technique, 2> const& table() noexcept {
     return all;
 }
 
-std::array<LightingTechnique, 4> const& lighting_table() noexcept {
-    static std::array<LightingTechnique, 4> const all{deferred_technique(), deferred_stencil_technique(),
-                                                      tiled_deferred_technique(), clustered_deferred_technique()};
+std::span<LightingTechnique const> lighting_table() noexcept {
+    static std::array const all{deferred_technique(), deferred_stencil_technique(),
+                                                      tiled_deferred_technique(), clustered_deferred_technique(),
+                                                      clustered_deferred_device_technique()};
     return all;
 }
 

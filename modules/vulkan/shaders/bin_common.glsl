@@ -2,7 +2,7 @@
 #ifndef VULKAN_SHADERS_BIN_COMMON_GLSL
 #define VULKAN_SHADERS_BIN_COMMON_GLSL
 
-#include "scan_common.glsl"
+#include "gnomon/backend/tile.glsl"
 
 const uint digits = 16u;
 

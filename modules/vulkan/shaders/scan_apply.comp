@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Each number becomes the sum of all before it, at most 2^32 - 1. `results` may be `values`.
-#include "scan_common.glsl"
+#include "gnomon/backend/tile.glsl"
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) buffer Values { uint values[]; };
 // Sums of all tiles before each tile, in the low words.

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The 64-bit sum (low word, high word) of each tile of 1024 numbers.
-#include "scan_common.glsl"
+#include "gnomon/backend/tile.glsl"
 layout(local_size_x = 64) in;
 // Numbers of 32 bits (stride 1), or sums of the level below: low and high words (stride 2).
 layout(std430, set = 0, binding = 0) readonly buffer Values { uint values[]; };

@@ -6,6 +6,7 @@
 #include <gnomon/lights.hpp>
 #include <gnomon/pipeline/lighting.hpp>
 
+#include "device_lists.hpp"
 #include "gbuffer.hpp"
 #include "light_kernels.hpp"
 #include "../staged.hpp"
@@ -48,6 +49,7 @@ struct Lighting {
     std::vector<cull::DepthRange> depth_ranges;
     cluster::UniqueWorkspace<std::uint32_t> unique;
     lights::Workspace assignment;
+    DeviceLists on_device;
 
     /// Writes the G-buffer unless this frame's is there.
     void fit_gbuffer(Verbs& verbs, Frame const& frame, GBufferFormat wanted, core::ExecutorRef executor);

@@ -1,6 +1,6 @@
-// What the scan's shaders share: a tile of 1024 numbers, 16 to an invocation, and sums that stop at 2^32 - 1.
-#ifndef VULKAN_SHADERS_SCAN_COMMON_GLSL
-#define VULKAN_SHADERS_SCAN_COMMON_GLSL
+// Tiles of 1024 numbers, 16 to an invocation of a group of 64, and sums over them that stop at 2^32 - 1: for kernels that scan and sort.
+#ifndef GNOMON_BACKEND_TILE_GLSL
+#define GNOMON_BACKEND_TILE_GLSL
 
 const uint lanes = 64u;
 const uint lane_items = 16u;

@@ -1,0 +1,129 @@
+// The lights of each unique cluster, counted or written in no order: the GLSL half of `assign_lights`.
+//
+// A group of 64 takes a cluster at a time. Half of it tests the 32 children of a node; what may touch is put aside until
+// there is work for all 64, as the predicate costs far more than a test of boxes.
+
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include <gnomon/cluster/formula/key.glsl>
+#include <gnomon/lights/formula/assign.glsl>
+
+#include "device_state.glsl"
+#include "gnomon/backend/tile.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 0) readonly buffer State { DeviceState state; };
+layout(std430, set = 0, binding = 1) readonly buffer Unique { uint unique_keys[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Lights { GnLight lights[]; };
+layout(std430, set = 0, binding = 4) readonly buffer TreeItems { float tree_items[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Nodes { float nodes[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Ids { uint ids[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Everywhere { uint everywhere[]; };
+layout(std430, set = 0, binding = 8) buffer Offsets { uint offsets[]; };  // counts, then scanned
+layout(std430, set = 0, binding = 9) buffer Cells { uvec2 cells[]; };     // offset, count
+layout(std430, set = 0, binding = 10) buffer List { uint list[]; };
+layout(push_constant) uniform Constants {
+    uint fill;
+    uint groups;
+    uint columns;
+    uint rows;
+    uint slices;
+    uint perspective;
+} c;
+
+const uint level_shift = 27u;
+
+shared uint stack[256];   // level << 27 | node
+shared uint queue[128];   // slots of items
+shared uint stack_count;
+shared uint queue_count;
+shared uint found;
+
+GnRowBorder border(uint j) {
+    uint at = 2u * c.columns + j;
+    return GnRowBorder(tables[at], tables[at + c.rows + 1u], tables[at + 2u * (c.rows + 1u)]);
+}
+
+GnSlicePlane plane(uint k) {
+    uint at = 2u * c.columns + 3u * (c.rows + 1u) + k;
+    return GnSlicePlane(tables[at], tables[at + c.slices + 1u], tables[at + 2u * (c.slices + 1u)]);
+}
+
+GnBox item_box(uint slot) {
+    uint slots = state.item_slots;
+    vec3 center = vec3(tree_items[slot], tree_items[slots + slot], tree_items[2u * slots + slot]);
+    return gn_box_of(GnSphere(center, tree_items[3u * slots + slot]));
+}
+
+GnBox node_box(uint level, uint node) {
+    uint slots = state.node_slots;
+    uint at = state.first[level] + node;
+    return GnBox(vec3(nodes[at], nodes[slots + at], nodes[2u * slots + at]),
+                 vec3(nodes[3u * slots + at], nodes[4u * slots + at], nodes[5u * slots + at]));
+}
+
+void take(uint first, uint light) {
+    uint at = atomicAdd(found, 1u);
+    if (c.fill != 0u) list[first + at] = light;
+}
+
+void assign_cluster(uint cluster, uint lane) {
+    uint key = unique_keys[cluster];
+    uint column = gn_key_column(key);
+    float left = tables[column];
+    float right = tables[c.columns + column];
+    bool perspective = c.perspective != 0u;
+    GnRow row = GnRow(border(gn_key_row(key)), border(gn_key_row(key) + 1u), plane(gn_key_slice(key)), plane(gn_key_slice(key) + 1u));
+    GnBox box = gn_cluster_box(row, left, right, perspective);
+    uint first = c.fill != 0u ? offsets[cluster] : 0u;
+    barrier();
+    if (lane == 0u) {
+        stack_count = state.levels > 0u ? 1u : 0u;
+        stack[0] = state.levels << level_shift;
+        queue_count = 0u;
+        found = 0u;
+    }
+    barrier();
+    for (uint i = lane; i < state.everywhere; i += lanes) take(first, everywhere[i]);
+    for (;;) {
+        barrier();
+        uint in_stack = stack_count;
+        uint in_queue = queue_count;
+        uint top = stack[in_stack > 0u ? in_stack - 1u : 0u];
+        barrier();
+        if (in_queue >= lanes || (in_stack == 0u && in_queue > 0u)) {
+            uint batch = min(in_queue, lanes);
+            if (lane < batch) {
+                uint light = ids[queue[in_queue - batch + lane]];
+                if (gn_touches(gn_light_span(lights[light], row, perspective), left, right)) take(first, light);
+            }
+            barrier();
+            if (lane == 0u) queue_count = in_queue - batch;
+        } else if (in_stack > 0u) {
+            if (lane == 0u) stack_count = in_stack - 1u;
+            barrier();
+            uint level = top >> level_shift;
+            uint child = (top & ((1u << level_shift) - 1u)) * 32u + lane;
+            if (lane < 32u && child < state.count[level - 1u]) {
+                if (level == 1u) {
+                    if (gn_may_hold(box, item_box(child))) queue[atomicAdd(queue_count, 1u)] = child;
+                } else if (gn_may_hold(box, node_box(level - 1u, child))) {
+                    stack[atomicAdd(stack_count, 1u)] = (level - 1u) << level_shift | child;
+                }
+            }
+        } else {
+            break;
+        }
+    }
+    barrier();
+    if (lane == 0u && c.fill == 0u) offsets[cluster] = found;
+    if (lane == 0u && c.fill != 0u) cells[cluster] = uvec2(first, found);
+}
+
+void main() {
+    uint clusters = state.clusters;
+    for (uint cluster = tile_index(); cluster < clusters; cluster += c.groups) assign_cluster(cluster, gl_LocalInvocationID.x);
+}
