@@ -31,6 +31,7 @@ Products products_of(Verb verb) {
     switch (verb) {
         case Verb::render: return {true, false};
         case Verb::compare: return {false, false};
+        case Verb::bench: return {false, false};
         case Verb::flythrough: break;
     }
     return {true, true};

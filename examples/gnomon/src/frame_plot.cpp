@@ -42,7 +42,7 @@ std::string grid_svg(Frame const& frame) {
                        "<text class='tick' x='{3:.1f}' y='{4:.1f}' text-anchor='end'>{5:.4g}</text>\n",
                        left, width - right, frame.y(value), left - 8.0, frame.y(value) + 4.0, value);
     }
-    double const step = round_up(frame.frames / 10.0);
+    double const step = std::max(1.0, round_up(frame.frames / 10.0));
     for (double at = 0.0; at < frame.frames; at += step)
         fmt::format_to(out, "<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.0f}</text>\n",
                        frame.x(at), height - bottom + 18.0, at);

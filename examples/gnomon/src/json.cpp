@@ -97,6 +97,11 @@ Json run_json(Report const& report, Run const& run) {
 }  // namespace
 
 std::string json_text(Report const& report, std::vector<std::string> const& files) {
+    return json_text(std::vector<Report const*>{&report}, files);
+}
+
+std::string json_text(std::vector<Report const*> const& reports, std::vector<std::string> const& files) {
+    Report const& report = *reports.front();
     Machine const& machine = report.machine;
     Json document = {{"gnomon", {{"version", GNOMON_VERSION}, {"command", report.command}, {"files", files}}},
                      {"machine",
@@ -107,7 +112,8 @@ std::string json_text(Report const& report, std::vector<std::string> const& file
                        {"compiler", machine.compiler},
                        {"build", machine.build}}},
                      {"runs", Json::array()}};
-    for (Run const& run : report.runs) document["runs"].push_back(run_json(report, run));
+    for (Report const* const each : reports)
+        for (Run const& run : each->runs) document["runs"].push_back(run_json(*each, run));
     // File and camera names may hold any bytes: what is not UTF-8 is replaced, never thrown over.
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

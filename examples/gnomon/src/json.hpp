@@ -12,6 +12,10 @@ namespace gnomon::command {
 ///
 /// A number that is infinite or not a number is written as null.
 [[nodiscard]] std::string json_text(Report const& report, std::vector<std::string> const& files);
+/// The same of the runs of several reports, by one command on one machine.
+///
+/// expects: at least one.
+[[nodiscard]] std::string json_text(std::vector<Report const*> const& reports, std::vector<std::string> const& files);
 
 /// The files that a results.json says were written with it; empty where `text` is not one of ours.
 [[nodiscard]] std::vector<std::string> files_listed_in(std::string const& text);

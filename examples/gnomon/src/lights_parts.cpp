@@ -1,5 +1,6 @@
 #include "lights_parts.hpp"
 
+#include "page_parts.hpp"
 #include "plot.hpp"
 #include "table.hpp"
 
@@ -75,17 +76,7 @@ std::string lights_verdict_html(Report const& report) {
     return "<p class='lead'>" + text + "</p>\n";
 }
 
-std::string lights_table_html(Report const& report) {
-    auto const rows = lights_rows(report);
-    std::string html = "<div class='wide'><table>\n<thead>";
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        char const* const cell = r == 0 ? "th" : "td";
-        html += "<tr>";
-        for (std::string const& text : rows[r]) html += fmt::format("<{0}>{1}</{0}>", cell, escaped(text));
-        html += r == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
-    }
-    return html + "</tbody></table></div>\n";
-}
+std::string lights_table_html(Report const& report) { return rows_html(lights_rows(report)); }
 
 std::string lights_explanation() {
     return "<p>Every pixel that shows a surface is one sample, and every technique has to sum up the lights that reach it. "

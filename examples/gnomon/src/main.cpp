@@ -36,6 +36,10 @@ struct Dispatch {
         bool const flies = options.verb == Verb::flythrough || options.motion.path;
         return flies ? fly(options) : run(options);
     }
+    Outcome<gnomon::core::Done> operator()(BenchOptions options) const {
+        options.run.command = command;
+        return bench_lights(options);
+    }
     Outcome<gnomon::core::Done> operator()(ScenesOptions const& options) const { return list_or_write_scenes(options); }
     Outcome<gnomon::core::Done> operator()(InfoOptions const& options) const {
         return options.devices ? show_devices() : show_info();

@@ -106,7 +106,7 @@ Outcome<MotionOptions> motion_options(RawOptions const& raw, Verb verb) {
         return static_cast<int>(count.value());
     });
     if (error) return *error;
-    bool const flies = verb == Verb::flythrough || raw.path;
+    bool const flies = verb == Verb::flythrough || verb == Verb::bench || raw.path;
     if (raw.frames && !flies)
         return usage_error(fmt::format("--frames {}: it goes with --path; add one", *raw.frames));
     for (auto const& [name, text] : {std::pair{"--eye", &raw.eye}, {"--camera", &raw.camera}})
@@ -242,6 +242,23 @@ Outcome<Command> run_command_of(RawOptions const& raw, Verb verb) {
     return Command{*std::move(run)};
 }
 
+Outcome<Command> bench_options(RawOptions const& raw) {
+    if (raw.bench != "lights")
+        return usage_error(fmt::format("gnomon bench {}: there is no such benchmark; there is lights", raw.bench));
+    auto run = run_options(raw, Verb::bench);
+    if (!run) return std::move(run).failure();
+    BenchOptions bench{*std::move(run)};
+    if (!raw.size) bench.run.view.size_px = math::ivec2(960, 540);
+    std::optional<core::Failure<Exit>> error;
+    take<std::int64_t>(raw.frames, bench.frames, error,
+                       [](std::string const& t) { return read_integer("--frames", t, frame_range); });
+    take<std::int64_t>(raw.most_lights, bench.most_lights, error,
+                       [](std::string const& t) { return read_integer("--most-lights", t, {1, 1'048'576}); });
+    if (error) return *error;
+    bench.run.motion.frames.reset();
+    return Command{std::move(bench)};
+}
+
 Outcome<Command> scenes_options(RawOptions const& raw) {
     ScenesOptions options;
     auto scene = scene_options(raw);
@@ -267,6 +284,7 @@ Outcome<Command> parse_command_line(int argc, char const* const* argv) {
         case RawVerb::render: return run_command_of(raw->options, Verb::render);
         case RawVerb::compare: return run_command_of(raw->options, Verb::compare);
         case RawVerb::flythrough: return run_command_of(raw->options, Verb::flythrough);
+        case RawVerb::bench: return bench_options(raw->options);
         case RawVerb::scenes: return scenes_options(raw->options);
         case RawVerb::info: return Command{InfoOptions{raw->options.devices}};
     }

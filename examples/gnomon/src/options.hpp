@@ -6,6 +6,7 @@
 #include <gnomon/math/vec.hpp>
 #include <gnomon/scene/procedural.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -59,6 +60,7 @@ enum class Verb {
     render,   ///< Pictures.
     compare,  ///< Pictures, a page, errors beside times.
     flythrough,  ///< A film, a page, a table of every frame.
+    bench,       ///< A page of fixed experiments beside the papers' figures.
 };
 
 struct RunOptions {
@@ -79,6 +81,13 @@ struct RunOptions {
     std::string command;              ///< As typed.
 };
 
+/// `bench lights`.
+struct BenchOptions {
+    RunOptions run;             ///< Size, backends, threads, repeats and outputs; the experiments choose the rest.
+    int frames = 12;            ///< Of each path, spread over it.
+    std::uint32_t most_lights = 1'048'576;
+};
+
 struct ScenesOptions {
     std::optional<SceneOptions> scene;
     std::optional<std::string> write;
@@ -93,7 +102,7 @@ struct HelpText {
     std::string text;
 };
 
-using Command = std::variant<HelpText, RunOptions, ScenesOptions, InfoOptions>;
+using Command = std::variant<HelpText, RunOptions, BenchOptions, ScenesOptions, InfoOptions>;
 
 /// returns: what to do; or a usage error whose sentence names the value and what to do.
 [[nodiscard]] Outcome<Command> parse_command_line(int argc, char const* const* argv);

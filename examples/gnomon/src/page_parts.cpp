@@ -156,6 +156,17 @@ std::string card_html(Report const& report, Run const& run, RunPictures const& p
         grouped(error.false_lit), grouped(error.false_shadow), figures(run.result.ms.median), pace, details_html(run));
 }
 
+std::string rows_html(std::vector<std::vector<std::string>> const& rows) {
+    std::string html = "<div class='wide'><table>\n<thead>";
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        char const* const cell = r == 0 ? "th" : "td";
+        html += "<tr>";
+        for (std::string const& text : rows[r]) html += fmt::format("<{0}>{1}</{0}>", cell, escaped(text));
+        html += r == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+    }
+    return html + "</tbody></table></div>\n";
+}
+
 std::string page_head(std::string const& title) {
     return fmt::format(
         "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"

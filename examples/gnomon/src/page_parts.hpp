@@ -27,6 +27,9 @@ namespace gnomon::command {
 /// What the numbers say, in words: the least wrong of the inexact runs, beside ray.
 [[nodiscard]] std::string verdict_html(Report const& report);
 
+/// The first row is the head.
+[[nodiscard]] std::string rows_html(std::vector<std::vector<std::string>> const& rows);
+
 /// One row a run.
 [[nodiscard]] std::string table_html(Report const& report);
 

@@ -12,7 +12,7 @@ namespace gnomon::command {
 
 namespace {
 
-std::vector<std::string> const verbs = {"render", "compare", "flythrough", "scenes", "info"};
+std::vector<std::string> const verbs = {"render", "compare", "flythrough", "bench", "scenes", "info"};
 
 void add_scene(CLI::App& app, RawOptions& raw, bool required) {
     app.add_option("scene", raw.scene, "a built-in scene (`gnomon scenes` lists them) or a .gltf/.glb file")
@@ -58,6 +58,22 @@ void add_view_and_light(CLI::App& app, RawOptions& raw) {
     light("--light", raw.light, "one of the scene's own lights", "NAME");
 }
 
+/// On what, how often, and where to.
+void add_running(CLI::App& app, RawOptions& raw) {
+    app.add_option("--backend,--backends", raw.backends, "what draws: cpu or vulkan, or both, a run of each; cpu")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B")
+        ->group("Runs");
+    auto const add = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type,
+                         char const* group) { app.add_option(name, value, text)->type_name(type)->group(group); };
+    add("--device", raw.device, "vulkan: a part of the device's name or its number; `gnomon info --devices`", "NAME", "Runs");
+    add("--threads", raw.threads, "left out: as many as the machine has", "N", "Runs");
+    add("--repeats", raw.repeats, "timed runs of each; the median counts; 1 (compare: 3)", "N", "Runs");
+    add("--out", raw.out, "folder to write; left out: gnomon- and the verb", "DIR", "Output");
+    add("--json", raw.json, "also write results.json here; - for standard output", "FILE", "Output");
+}
+
 void add_run(CLI::App& app, RawOptions& raw) {
     std::string const runs = "Runs";
     app.add_option("--techniques,--technique", raw.techniques, "which to run; shadow-map; compare: shadow-map,ray")
@@ -69,20 +85,9 @@ void add_run(CLI::App& app, RawOptions& raw) {
         ->allow_extra_args(false)
         ->type_name("TECHNIQUE.NAME=V[,V]")
         ->group(runs);
-    auto const add = [&](char const* name, std::optional<std::string>& value, char const* text, char const* type,
-                         char const* group) { app.add_option(name, value, text)->type_name(type)->group(group); };
     app.add_flag("--no-truth", raw.no_truth, "pictures and times only: trace no exact shadows, so know no errors")
         ->group(runs);
-    app.add_option("--backend,--backends", raw.backends, "what draws: cpu or vulkan, or both, a run of each; cpu")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("A,B")
-        ->group(runs);
-    add("--device", raw.device, "vulkan: a part of the device's name or its number; `gnomon info --devices`", "NAME", "Runs");
-    add("--threads", raw.threads, "left out: as many as the machine has", "N", "Runs");
-    add("--repeats", raw.repeats, "timed runs of each; the median counts; 1 (compare: 3)", "N", "Runs");
-    add("--out", raw.out, "folder to write; left out: gnomon- and the verb", "DIR", "Output");
-    add("--json", raw.json, "also write results.json here; - for standard output", "FILE", "Output");
+    add_running(app, raw);
 }
 
 /// Every option name of `app`, for suggestions.
@@ -132,6 +137,7 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     auto* render = app.add_subcommand("render", "Draw pictures of a scene with shadows");
     auto* compare = app.add_subcommand("compare", "Measure techniques against exact shadows: a page, pictures, JSON");
     auto* flythrough = app.add_subcommand("flythrough", "Fly along a path: a film, a table of every frame, pictures");
+    auto* bench = app.add_subcommand("bench", "Repeat the papers' experiments, their figures beside ours");
     auto* scenes = app.add_subcommand("scenes", "List the built-in scenes, or write one as glTF");
     auto* info = app.add_subcommand("info", "Version, machine, backends, techniques and their parameters");
     for (CLI::App* verb : {render, compare, flythrough}) {
@@ -139,6 +145,11 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
         add_view_and_light(*verb, raw.options);
         add_run(*verb, raw.options);
     }
+    bench->add_option("which", raw.options.bench, "lights: tiled and clustered shading, few lights to a million")->required()->type_name("");
+    bench->add_option("--size", raw.options.size, "picture size in pixels; 960x540 (the papers': 1920x1080)")->type_name("WxH");
+    bench->add_option("--frames", raw.options.frames, "of each path, spread over it; 12")->type_name("N");
+    bench->add_option("--most-lights", raw.options.most_lights, "no experiment has more; 1048576")->type_name("N");
+    add_running(*bench, raw.options);
     add_scene(*scenes, raw.options, false);
     scenes->add_option("--write", raw.options.write, "write the scene as glTF 2.0")->type_name("FILE.glb");
     info->add_flag("--devices", raw.options.devices, "list the Vulkan devices of this machine");
@@ -146,7 +157,7 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     if (argc > 1 && !first.starts_with("-") && std::find(verbs.begin(), verbs.end(), first) == verbs.end())
         return unknown_verb(first);
     if (argc <= 1)
-        return usage_error("gnomon needs a verb: render, compare, flythrough, scenes or info; `gnomon --help` says more");
+        return usage_error("gnomon needs a verb: render, compare, flythrough, bench, scenes or info; `gnomon --help` says more");
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& error) {
@@ -163,6 +174,7 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
     raw.verb = render->parsed()       ? RawVerb::render
                : compare->parsed()    ? RawVerb::compare
                : flythrough->parsed() ? RawVerb::flythrough
+               : bench->parsed()      ? RawVerb::bench
                : scenes->parsed()     ? RawVerb::scenes
                : info->parsed()       ? RawVerb::info
                                       : RawVerb::help;

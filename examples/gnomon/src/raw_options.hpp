@@ -11,13 +11,14 @@ namespace gnomon::command {
 
 struct RawOptions {
     std::string scene;
+    std::string bench;  ///< Which benchmark.
     std::optional<std::string> triangles, blocks, offset, seed, lights, moving;
     std::optional<std::string> eye, look, fov, camera, near, far;
     std::optional<std::string> path, frames, time, clip, file_scene;
     bool no_truth = false, trees = false;
     std::optional<std::string> sun, point, light;
     std::vector<std::string> techniques, params;
-    std::optional<std::string> size, device, threads, repeats, json, out, write;
+    std::optional<std::string> size, device, threads, repeats, json, out, write, most_lights;
     std::vector<std::string> backends;
     bool devices = false;
 };
@@ -27,6 +28,7 @@ enum class RawVerb {
     render,
     compare,
     flythrough,
+    bench,
     scenes,
     info,
 };

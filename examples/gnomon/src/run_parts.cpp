@@ -63,6 +63,7 @@ std::string out_folder(RunOptions const& options) {
     switch (options.verb) {
         case Verb::render: return "gnomon-render";
         case Verb::compare: return "gnomon-compare";
+        case Verb::bench: return "gnomon-bench";
         case Verb::flythrough: break;
     }
     return "gnomon-flythrough";

@@ -9,6 +9,8 @@ namespace gnomon::command {
 [[nodiscard]] Outcome<core::Done> run(RunOptions const& options);
 /// `flythrough`; `render` and `compare` along a path.
 [[nodiscard]] Outcome<core::Done> fly(RunOptions const& options);
+/// `bench lights`.
+[[nodiscard]] Outcome<core::Done> bench_lights(BenchOptions const& options);
 [[nodiscard]] Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options);
 [[nodiscard]] Outcome<core::Done> show_info();
 /// `info --devices`.

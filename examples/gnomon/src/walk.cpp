@@ -20,17 +20,19 @@ Outcome<core::Done> Walk::prepare() {
     auto light = choose_lighting(options_, plan_, stage_, journey_.views.front());
     if (!light) return std::move(light).failure();
     light_ = *std::move(light);
+    for (std::size_t i = 0; i < plan_.size(); ++i) workspaces_.push_back(std::make_unique<pipeline::Workspace>());
+    requests_.emplace(plan_, backends_, workspaces_);
+    restart(light_.text());
+    return core::Done{};
+}
+
+void Walk::restart(std::string light) {
     report_ = start_report(options_, stage_);
     report_.many_lights = lights_many(plan_);
-    report_.light = light_.text();
+    report_.light = std::move(light);
     report_.view = journey_.text + stage_.text();
     report_.frames = 0;
-    for (PlannedRun const& planned : plan_) {
-        workspaces_.push_back(std::make_unique<pipeline::Workspace>());
-        report_.runs.push_back(run_of(planned, backends_));
-    }
-    requests_.emplace(plan_, backends_, workspaces_);
-    return core::Done{};
+    for (PlannedRun const& planned : plan_) report_.runs.push_back(run_of(planned, backends_));
 }
 
 Outcome<pipeline::Comparison> Walk::step(int frame, bool images) {

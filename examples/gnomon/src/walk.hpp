@@ -28,6 +28,9 @@ class Walk {
     /// Runs all techniques on a frame of the path and notes their numbers; frames in ascending order, any of them.
     [[nodiscard]] Outcome<pipeline::Comparison> step(int frame, bool images);
 
+    /// Forgets the numbers, so that the next step begins a report of its own under `light`.
+    void restart(std::string light);
+
     /// Makes the report's totals.
     ///
     /// expects: at least one step.

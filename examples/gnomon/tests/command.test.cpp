@@ -94,6 +94,33 @@ TEST_CASE("many lights are compared by image and by work; with shadows they do n
     CHECK(has(unknown.err, "for many lights, deferred, "));
 }
 
+TEST_CASE("bench lights puts our figures beside the papers'", "[command]") {
+    TestFolder const folder;
+    Ended const ended = gnomon_in(folder.path(), {"bench", "lights", "--size", "64x36", "--frames", "2", "--most-lights", "300", "--out", "out"});
+    CAPTURE(ended.err, ended.out);
+    REQUIRE(ended.exit_code == 0);
+    json const results = results_in(folder / "out");
+    auto const errors = schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results);
+    CAPTURE(errors.empty() ? std::string() : errors.front());
+    CHECK(errors.empty());
+    std::size_t exact = 0, coarse = 0;
+    for (json const& run : results["runs"]) {
+        if (run["error"].is_null()) continue;
+        bool const halves = run["params"]["gbuffer"] == "f16";
+        (halves ? coarse : exact) += 1;
+        if (!halves) CHECK(run["error"]["wrong"] == 0);
+        if (halves) CHECK(run["error"]["radiance_error"] < 0.01);
+    }
+    CHECK(exact > 20);
+    CHECK(coarse >= 6);
+    CHECK(has(ended.out, "[Paper I, table 2]"));
+    CHECK(has(ended.out, "[Paper II, table 2]"));
+    CHECK(has(read_text(folder / "out/index.html"), "Where tiled and clustered cross"));
+    Ended const unknown = gnomon_in(folder.path(), {"bench", "shadows"});
+    CHECK(unknown.exit_code == 2);
+    CHECK(has(unknown.err, "gnomon bench shadows: there is no such benchmark; there is lights"));
+}
+
 TEST_CASE("the page loads nothing from elsewhere", "[command]") {
     TestFolder const folder;
     Ended const ended =
