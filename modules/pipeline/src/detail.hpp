@@ -73,7 +73,8 @@ struct AlphaRule {
 [[nodiscard]] LightingTechnique deferred_technique() noexcept;
 [[nodiscard]] LightingTechnique deferred_stencil_technique() noexcept;
 [[nodiscard]] LightingTechnique tiled_deferred_technique() noexcept;
-[[nodiscard]] LightingTechnique clustered_deferred_technique() noexcept;
+[[nodiscard]] LightingTechnique tiled_deferred_en_technique() noexcept;
+[[nodiscard]] std::span<LightingTechnique const> clustered_deferred_techniques() noexcept;
 [[nodiscard]] LightingTechnique clustered_deferred_device_technique() noexcept;
 
 }  // namespace gnomon::pipeline

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace gnomon::pipeline {
 
@@ -20,10 +21,14 @@ std::array<Technique, 2> const& table() noexcept {
     return all;
 }
 
-std::span<LightingTechnique const> lighting_table() noexcept {
-    static std::array const all{deferred_technique(), deferred_stencil_technique(),
-                                                      tiled_deferred_technique(), clustered_deferred_technique(),
-                                                      clustered_deferred_device_technique()};
+std::vector<LightingTechnique> const& lighting_table() noexcept {
+    static std::vector<LightingTechnique> const all = [] {
+        std::vector<LightingTechnique> list{deferred_technique(), deferred_stencil_technique(), tiled_deferred_technique(), tiled_deferred_en_technique()};
+        std::span<LightingTechnique const> const clustered = clustered_deferred_techniques();
+        list.insert(list.end(), clustered.begin(), clustered.end());
+        list.push_back(clustered_deferred_device_technique());
+        return list;
+    }();
     return all;
 }
 

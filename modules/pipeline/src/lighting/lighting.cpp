@@ -4,6 +4,8 @@
 #include "light_kernels.hpp"
 #include "../workspace.hpp"
 
+#include <gnomon/math/half.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,16 +39,23 @@ lights::ShadedLight shaded_light(Light const& light, math::vec3 const& position)
     return {};
 }
 
+float wide_half_angle(Light const& light) noexcept { return std::min(light.outer_cone_rad + 1e-3F, 3.14159274F); }
+
+/// How far a spot's apex is moved back until its cone's sides are `rounding` farther out.
+float moved_back(Light const& light, float rounding) noexcept {
+    bool const is_cone = light.kind == LightKind::spot && math::is_finite(light.range_m);
+    return is_cone ? 2.0F * rounding / std::max(std::sin(std::min(wide_half_angle(light), 1.5F)), 1e-3F) : 0.0F;
+}
+
 /// The light in culling space, larger by what rounding may hide: a ball by `rounding`; a spot's cone by a milliradian, its
-/// apex moved back until the cone's sides are `rounding` farther out.
+/// apex moved back.
 lights::Light culled_light(math::View const& view, Light const& light, float rounding) noexcept {
     if (light.kind == LightKind::directional || !math::is_finite(light.range_m)) return lights::make_directional();
     math::vec3 const nowhere(0.0F);  // `place` says where
     float const range = light.range_m * (1.0F + 0x1p-20F) + rounding;
     if (light.kind == LightKind::point) return lights::place({light.position_m, lights::make_point(nowhere, range)}, view);
-    float const half = std::min(light.outer_cone_rad + 1e-3F, 3.14159274F);
-    float const back = 2.0F * rounding / std::max(std::sin(std::min(half, 1.5F)), 1e-3F);
-    lights::Light const spot = lights::make_spot(nowhere, range + back, math::to_float(light.direction), half);
+    float const back = moved_back(light, rounding);
+    lights::Light const spot = lights::make_spot(nowhere, range + back, math::to_float(light.direction), wide_half_angle(light));
     lights::Light placed = lights::place({light.position_m, spot}, view);
     placed.center = placed.center - placed.axis * back;
     return placed;
@@ -75,11 +84,30 @@ void prepare_lights(Frame const& frame, std::span<Light const> lights, PreparedL
     float const rounding = rounding_m(frame);
     out.shaded.clear();
     out.culled.clear();
+    out.facing_slack_m = 0.0F;
     for (Light const& light : lights) {
         math::vec3 const position = math::to_float(light.position_m - frame.geometry->origin_m);
         out.shaded.push_back(shaded_light(light, position));
         out.culled.push_back(culled_light(frame.view, light, rounding));
+        out.facing_slack_m = std::max(out.facing_slack_m, rounding + 1.001F * moved_back(light, rounding));
     }
+}
+
+void widen(std::span<cluster::NormalCone> cones) noexcept {
+    for (cluster::NormalCone& cone : cones) cone.cos_half -= 1e-5F;
+}
+
+void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math::vec3>& out) {
+    out.resize(on.frame.samples.size());
+    math::View const& view = on.frame.view;
+    on.executor.parallel_for(out.size(), sample_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            math::vec3 n = on.frame.samples.shading_normal[i];
+            for (math::axis_t k = 0; k < 3 && format == GBufferFormat::f16; ++k) n[k] = math::float_of_half(math::half_of_float(n[k]));
+            math::dvec3 const d = math::to_double(n);
+            out[i] = math::to_float(math::dvec3(glm::dot(d, view.right), -glm::dot(d, view.up), -glm::dot(d, view.back)));
+        }
+    });
 }
 
 Lighting& begin_lighting(LightingRun const& on, Verbs& verbs) {

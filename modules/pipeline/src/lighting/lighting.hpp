@@ -24,6 +24,15 @@ namespace gnomon::pipeline {
 struct PreparedLights {
     std::vector<lights::ShadedLight> shaded;  ///< Work space.
     std::vector<lights::Light> culled;        ///< Culling space of the frame's view.
+    float facing_slack_m = 0.0F;              ///< How far apart the two may have a light and a sample: for culling by normals.
+};
+
+/// Keys of samples, and the unique ones.
+template <cluster::Key K>
+struct KeySet {
+    std::vector<K> keys;
+    std::vector<K> unique;
+    cluster::UniqueWorkspace<K> work;
 };
 
 /// Of all lighting techniques: on the backend, and memory of the host.
@@ -40,15 +49,25 @@ struct Lighting {
     StagedBuffer computations;
 
     PreparedLights prepared;
-    std::vector<std::uint32_t> keys;           ///< Of samples.
+    KeySet<std::uint32_t> keys;
+    KeySet<std::uint64_t> wide_keys;           ///< Where those have too few bits.
     std::vector<std::uint32_t> list_of_sample;
-    std::vector<std::uint32_t> unique_keys;
-    std::vector<lights::Cell> dense_cells;     ///< Of every cluster or tile of the grid.
+    std::vector<lights::Cell> dense_cells;     ///< Of every tile of the grid.
     std::vector<lights::Cell> list_cells;      ///< Of those that are shaded.
     std::vector<std::uint32_t> list_indices;
     std::vector<cull::DepthRange> depth_ranges;
-    cluster::UniqueWorkspace<std::uint32_t> unique;
-    lights::Workspace assignment;
+    lights::Workspace assignment;              ///< Of tiles.
+
+    std::vector<cluster::ClusterCoordinates> clusters;  ///< Those with samples.
+    std::vector<std::uint32_t> normal_cells;            ///< Of those, where normals are in the key.
+    std::vector<math::vec3> sample_vectors;             ///< Positions or normals in culling space.
+    std::vector<math::Aabb> boxes;
+    std::vector<cluster::NormalCone> cones;
+    cluster::ReduceWorkspace reduction;
+    lights::LightTreeWorkspace tree_work;
+    lights::LightTree tree;
+    lights::SparseWorkspace sparse;
+
     DeviceLists on_device;
 
     /// Writes the G-buffer unless this frame's is there.
@@ -78,6 +97,13 @@ class SampleDepth {
     math::vec3 eye_;
     math::vec3 forward_;
 };
+
+/// Normal cones that shading's own rounding may not leave: its products err by less than 1e-6 of a radian, and cosines fall
+/// by no more than their angle grows.
+void widen(std::span<cluster::NormalCone> cones) noexcept;
+
+/// The normals of samples as the G-buffer has them, in culling space.
+void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math::vec3>& out);
 
 /// A grid of cubical clusters as deep as the samples go.
 [[nodiscard]] Result<cluster::Grid> make_cluster_grid(LightingRun const& on);
