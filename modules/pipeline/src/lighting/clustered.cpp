@@ -66,10 +66,16 @@ std::size_t find_unique(LightingRun const& on, Variant const& variant, cluster::
     return cluster::unique_by_local_sort(layout, keys, out, set.work, executor).clusters;
 }
 
+struct ClusteredRun {
+    LightingRun const& on;
+    Variant const& variant;
+    cluster::Grid const& grid;
+};
+
 /// The unique clusters of the samples, to `l.clusters` and `l.normal_cells`; `l.list_of_sample` says which is whose.
 template <cluster::Key K>
-void find_clusters(LightingRun const& on, Variant const& variant, cluster::Grid const& grid, cluster::KeyLayout<K> const& layout,
-                   KeySet<K>& set, std::vector<StageTime>& stages) {
+void find_clusters(ClusteredRun const& run, cluster::KeyLayout<K> const& layout, KeySet<K>& set, std::vector<StageTime>& stages) {
+    auto const& [on, variant, grid] = run;
     Lighting& l = on.workspace.state().lighting;
     Stopwatch watch;
     if (layout.normal_n != 0) turn_normals(on, l.format, l.sample_vectors);
@@ -88,16 +94,16 @@ void find_clusters(LightingRun const& on, Variant const& variant, cluster::Grid 
 }
 
 /// By keys of 32 bits, or of 64 where those do not hold the grid.
-Result<core::Done> find_clusters(LightingRun const& on, Variant const& variant, cluster::Grid const& grid, std::vector<StageTime>& stages) {
-    Lighting& l = on.workspace.state().lighting;
-    auto const narrow = cluster::make_key_layout<std::uint32_t>(grid.view(), variant.normal_n);
+Result<core::Done> find_clusters(ClusteredRun const& run, std::vector<StageTime>& stages) {
+    Lighting& l = run.on.workspace.state().lighting;
+    auto const narrow = cluster::make_key_layout<std::uint32_t>(run.grid.view(), run.variant.normal_n);
     if (narrow) {
-        find_clusters(on, variant, grid, *narrow, l.keys, stages);
+        find_clusters(run, *narrow, l.keys, stages);
         return core::Done{};
     }
-    auto const wide = cluster::make_key_layout<std::uint64_t>(grid.view(), variant.normal_n);
+    auto const wide = cluster::make_key_layout<std::uint64_t>(run.grid.view(), run.variant.normal_n);
     if (!wide) return core::Failure{Error::bad_value, wide.failure().message};
-    find_clusters(on, variant, grid, *wide, l.wide_keys, stages);
+    find_clusters(run, *wide, l.wide_keys, stages);
     return core::Done{};
 }
 
@@ -154,7 +160,7 @@ Result<LightingOutput> run_clustered(LightingRun const& on, Variant const& varia
     auto grid = make_cluster_grid(on);
     if (!grid) return std::move(grid).failure();
     stages.push_back({"grid", watch.lap_ms()});
-    auto found = find_clusters(on, variant, *grid, stages);
+    auto found = find_clusters({on, variant, *grid}, stages);
     if (!found) return std::move(found).failure();
     (void)watch.lap_ms();
     if (variant.explicit_bounds) find_boxes(on, l);

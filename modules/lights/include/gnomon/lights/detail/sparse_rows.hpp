@@ -64,6 +64,14 @@ template <class S>
 
 using TreeArrays = bvh::TreeView<bvh::Spheres, 32>;
 
+/// What the spans of a segment are made of.
+struct SegmentInput {
+    cull::RowGrid const& grid;
+    SegmentPlace at;
+    TreeArrays tree;
+    std::span<Light const> lights;
+};
+
 /// A group of balls out of the tree; lanes beyond the last repeat it.
 template <class S>
 [[nodiscard, gnu::always_inline]] inline bvh::ItemOf<S, 4> gather_balls(TreeArrays const& tree, std::uint32_t const* slots,
@@ -77,17 +85,16 @@ template <class S>
 
 /// The spans of the balls in `slots` that touch the segment. returns: how many there are. `out` may begin at `slots`.
 template <class S>
-[[gnu::always_inline]] inline std::size_t find_spans(cull::RowGrid const& grid, SegmentPlace const& at, TreeArrays const& tree,
-                                                     std::span<std::uint32_t const> slots, FoundSpans const& out) noexcept {
+[[gnu::always_inline]] inline std::size_t find_spans(SegmentInput const& in, std::span<std::uint32_t const> slots, FoundSpans const& out) noexcept {
     constexpr std::size_t n = lane_count<S>;
-    formula::GnRow<S> const row = spread_row<S>(grid.row(at.row, at.slice));
-    formula::Float<S> const left(grid.left[at.first]), right(grid.right[at.last]);
+    formula::GnRow<S> const row = spread_row<S>(in.grid.row(in.at.row, in.at.slice));
+    formula::Float<S> const left(in.grid.left[in.at.first]), right(in.grid.right[in.at.last]);
     std::size_t found = 0;
     for (std::size_t i = 0; i < slots.size(); i += n) {
         std::size_t const count = std::min(n, slots.size() - i);
-        bvh::ItemOf<S, 4> const b = gather_balls<S>(tree, slots.data() + i, count);
-        auto const ready = gn_ready_ball(formula::Vec3<S>(b[0], b[1], b[2]), b[3], grid.perspective);
-        formula::GnSpan<S> const span = gn_ball_row(ready, row, grid.perspective);
+        bvh::ItemOf<S, 4> const b = gather_balls<S>(in.tree, slots.data() + i, count);
+        auto const ready = gn_ready_ball(formula::Vec3<S>(b[0], b[1], b[2]), b[3], in.grid.perspective);
+        formula::GnSpan<S> const span = gn_ball_row(ready, row, in.grid.perspective);
         std::uint32_t bits = bits_of(gn_touches(span, left, right)) & ((1U << count) - 1U);
         float low[n], high[n];
         store(low, span.low);
@@ -104,26 +111,24 @@ template <class S>
 
 /// Cuts the spans of narrow spots, given by their places among the found, to what the spots cover of the row.
 template <class S>
-[[gnu::always_inline]] inline void cut_spots(cull::RowGrid const& grid, SegmentPlace const& at, TreeArrays const& tree,
-                                             std::span<Light const> lights, std::span<std::uint32_t const> places,
-                                             FoundSpans const& found) noexcept {
+[[gnu::always_inline]] inline void cut_spots(SegmentInput const& in, std::span<std::uint32_t const> places, FoundSpans const& found) noexcept {
     constexpr std::size_t n = lane_count<S>;
-    formula::GnRow<S> const row = spread_row<S>(grid.row(at.row, at.slice));
+    formula::GnRow<S> const row = spread_row<S>(in.grid.row(in.at.row, in.at.slice));
     for (std::size_t i = 0; i < places.size(); i += n) {
         std::size_t const count = std::min(n, places.size() - i);
         std::uint32_t slots[n];
         float cone[5][n];
         for (std::size_t k = 0; k < n; ++k) {
             slots[k] = found.slot[places[i + std::min(k, count - 1)]];
-            Light const& l = lights[tree.ids[slots[k]]];
+            Light const& l = in.lights[in.tree.ids[slots[k]]];
             float const numbers[5] = {l.axis.x, l.axis.y, l.axis.z, l.cos_half, l.sin_half};
             for (std::size_t c = 0; c < 5; ++c) cone[c][k] = numbers[c];
         }
-        bvh::ItemOf<S, 4> const b = gather_balls<S>(tree, slots, n);
-        auto const ready = gn_ready_ball(formula::Vec3<S>(b[0], b[1], b[2]), b[3], grid.perspective);
+        bvh::ItemOf<S, 4> const b = gather_balls<S>(in.tree, slots, n);
+        auto const ready = gn_ready_ball(formula::Vec3<S>(b[0], b[1], b[2]), b[3], in.grid.perspective);
         formula::Vec3<S> const axis(load<S>(cone[0]), load<S>(cone[1]), load<S>(cone[2]));
-        auto const spot = gn_ready_spot(ready, axis, formula::Float<S>(load<S>(cone[3])), formula::Float<S>(load<S>(cone[4])), grid.perspective);
-        formula::GnSpan<S> const span = gn_spot_row(spot, row, grid.perspective);
+        auto const spot = gn_ready_spot(ready, axis, formula::Float<S>(load<S>(cone[3])), formula::Float<S>(load<S>(cone[4])), in.grid.perspective);
+        formula::GnSpan<S> const span = gn_spot_row(spot, row, in.grid.perspective);
         float low[n], high[n];
         store(low, span.low);
         store(high, span.high);
@@ -195,20 +200,17 @@ using SparseLanes = float;
 #endif
 
 #if GNOMON_BVH_AVX2
-[[gnu::target("avx2,bmi,popcnt"), gnu::flatten]] inline std::size_t find_spans_avx2(cull::RowGrid const& grid, SegmentPlace const& at,
-                                                                         TreeArrays const& tree, std::span<std::uint32_t const> slots,
-                                                                         FoundSpans const& out) noexcept {
-    return find_spans<math::Lanes<float, 8>>(grid, at, tree, slots, out);
+#define GNOMON_SPARSE_AVX2 [[gnu::target("avx2,bmi,popcnt"), gnu::flatten]] inline
+GNOMON_SPARSE_AVX2 std::size_t find_spans_avx2(SegmentInput const& in, std::span<std::uint32_t const> slots, FoundSpans const& out) noexcept {
+    return find_spans<math::Lanes<float, 8>>(in, slots, out);
 }
-[[gnu::target("avx2,bmi,popcnt"), gnu::flatten]] inline void cut_spots_avx2(cull::RowGrid const& grid, SegmentPlace const& at,
-                                                                 TreeArrays const& tree, std::span<Light const> lights,
-                                                                 std::span<std::uint32_t const> places, FoundSpans const& found) noexcept {
-    cut_spots<math::Lanes<float, 8>>(grid, at, tree, lights, places, found);
+GNOMON_SPARSE_AVX2 void cut_spots_avx2(SegmentInput const& in, std::span<std::uint32_t const> places, FoundSpans const& found) noexcept {
+    cut_spots<math::Lanes<float, 8>>(in, places, found);
 }
-[[gnu::target("avx2,bmi,popcnt"), gnu::flatten]] inline std::size_t find_members_avx2(SortedLights const& s, MemberTest const& test,
-                                                                           std::uint32_t* out) noexcept {
+GNOMON_SPARSE_AVX2 std::size_t find_members_avx2(SortedLights const& s, MemberTest const& test, std::uint32_t* out) noexcept {
     return find_members<math::Lanes<float, 8>>(s, test, out);
 }
+#undef GNOMON_SPARSE_AVX2
 #endif
 
 /// The kernels above in the widest lanes there are here, or one by one.
@@ -216,20 +218,19 @@ struct SparseKernels {
     bool wide = false;
     bool lanes = true;
 
-    [[nodiscard]] std::size_t spans(cull::RowGrid const& grid, SegmentPlace const& at, TreeArrays const& tree,
-                                    std::span<std::uint32_t const> slots, FoundSpans const& out) const noexcept {
+    [[nodiscard]] std::size_t spans(SegmentInput const& in, std::span<std::uint32_t const> slots, FoundSpans const& out) const noexcept {
 #if GNOMON_BVH_AVX2
-        if (wide) return find_spans_avx2(grid, at, tree, slots, out);
+        if (wide) return find_spans_avx2(in, slots, out);
 #endif
-        if (lanes) return find_spans<SparseLanes>(grid, at, tree, slots, out);
-        return find_spans<float>(grid, at, tree, slots, out);
+        if (lanes) return find_spans<SparseLanes>(in, slots, out);
+        return find_spans<float>(in, slots, out);
     }
-    void spots(cull::RowGrid const& grid, SegmentPlace const& at, TreeArrays const& tree, std::span<Light const> lights,
-               std::span<std::uint32_t const> places, FoundSpans const& found) const noexcept {
+    void spots(SegmentInput const& in, std::span<std::uint32_t const> places, FoundSpans const& found) const noexcept {
 #if GNOMON_BVH_AVX2
-        if (wide) return cut_spots_avx2(grid, at, tree, lights, places, found);
+        if (wide) return cut_spots_avx2(in, places, found);
 #endif
-        cut_spots<SparseLanes>(grid, at, tree, lights, places, found);
+        if (lanes) return cut_spots<SparseLanes>(in, places, found);
+        cut_spots<float>(in, places, found);
     }
     [[nodiscard]] std::size_t members(SortedLights const& s, MemberTest const& test, std::uint32_t* out) const noexcept {
 #if GNOMON_BVH_AVX2

@@ -86,20 +86,19 @@ void make_room(std::vector<T>& list, std::size_t size) {
 }
 
 /// Spans of spots and boxes, which are less than their balls'.
-inline void cut_others(SparseRun const& run, SegmentPlace const& at, std::size_t count, SparseTask& task) {
-    TreeArrays const tree = run.in.tree.tree.view();
+inline void cut_others(SparseRun const& run, SegmentInput const& in, std::size_t count, SparseTask& task) {
     FoundSpans const found{task.spans[0], task.spans[1], task.slots.data()};
     make_room(task.spots, count);
     std::size_t spots = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        Light const& light = run.in.lights[tree.ids[task.slots[i]]];
+        Light const& light = in.lights[in.tree.ids[task.slots[i]]];
         if (is_cone(light)) task.spots[spots++] = static_cast<std::uint32_t>(i);
         if (light.kind != Kind::box) continue;
-        cull::Span const s = span_of(run.in.grid, light, at.row, at.slice);
+        cull::Span const s = span_of(in.grid, light, in.at.row, in.at.slice);
         found.low[i] = s.low.v;
         found.high[i] = s.high.v;
     }
-    if (spots != 0) run.kernels.spots(run.in.grid, at, tree, run.in.lights, std::span(task.spots).first(spots), found);
+    if (spots != 0) run.kernels.spots(in, std::span(task.spots).first(spots), found);
 }
 
 /// The segment's lights in ascending order, those that are everywhere among them.
@@ -126,7 +125,6 @@ inline void cut_others(SparseRun const& run, SegmentPlace const& at, std::size_t
         if (!with_places) continue;
         std::uint32_t const slot = everywhere ? 0 : task.slots[from];
         for (std::size_t k = 0; k < 3; ++k) task.sorted[2 + k][i] = everywhere ? 0.0F : arrays.items[k][slot];
-        // The predicate's widening here too: a box may be a sample.
         task.sorted[5][i] = everywhere ? std::numeric_limits<float>::infinity() : gn_touch_limit(formula::Float<float>(arrays.items[3][slot])).v;
         bool const faces = !everywhere && (tree.only_points || run.in.lights[task.ids[i]].kind != Kind::box);
         task.sorted[6][i] = faces ? task.sorted[2][i] : std::numeric_limits<float>::quiet_NaN();
@@ -162,6 +160,7 @@ inline void count_segments(SparseRun const& run, std::span<Segment const> segmen
     task.hit_count = 0;
     for (Segment const& s : segments) {
         SegmentPlace const at = run.place(s);
+        SegmentInput const in{run.in.grid, at, tree, run.in.lights};
         task.slot_count = 0;
         bvh::for_each_touched(tree, WideBox{query_box(run, s, at)}, [&](std::uint32_t slot, std::uint32_t) {
             make_room(task.slots, task.slot_count + 1);
@@ -169,8 +168,8 @@ inline void count_segments(SparseRun const& run, std::span<Segment const> segmen
         });
         task.spans.grow(task.slot_count);
         FoundSpans const out{task.spans[0], task.spans[1], task.slots.data()};
-        std::size_t const found = run.kernels.spans(run.in.grid, at, tree, std::span(task.slots).first(task.slot_count), out);
-        if (!run.in.tree.only_points) cut_others(run, at, found, task);
+        std::size_t const found = run.kernels.spans(in, std::span(task.slots).first(task.slot_count), out);
+        if (!run.in.tree.only_points) cut_others(run, in, found, task);
         SortedLights const sorted = sort_lights(run, found, task);
         for (std::uint32_t i = s.first; i < s.last; ++i) {
             std::uint32_t const c = run.cluster(i);
