@@ -152,10 +152,9 @@ lights::ListsReport assign(LightingRun const& on, cluster::Grid const& grid, Var
     return report;
 }
 
-Result<LightingOutput> run_clustered(LightingRun const& on, Variant const& variant) {
-    Verbs verbs(on.device);
-    Lighting& l = begin_lighting(on, verbs);
-    std::vector<StageTime> stages;
+/// `list_of_sample`, `list_cells` and `list_indices` of a lighting whose lights are prepared.
+Result<lights::ListsReport> find_lists(LightingRun const& on, Variant const& variant, std::vector<StageTime>& stages) {
+    Lighting& l = on.workspace.state().lighting;
     Stopwatch watch;
     auto grid = make_cluster_grid(on);
     if (!grid) return std::move(grid).failure();
@@ -170,8 +169,17 @@ Result<LightingOutput> run_clustered(LightingRun const& on, Variant const& varia
     stages.push_back({"tree", watch.lap_ms()});
     lights::ListsReport const report = assign(on, *grid, variant, l);
     stages.push_back({"assign", watch.lap_ms()});
+    return report;
+}
+
+Result<LightingOutput> run_clustered(LightingRun const& on, Variant const& variant) {
+    Verbs verbs(on.device);
+    (void)begin_lighting(on, verbs);
+    std::vector<StageTime> stages;
+    auto report = find_lists(on, variant, stages);
+    if (!report) return std::move(report).failure();
     auto output = shade_lists(on, verbs, std::move(stages));
-    if (output) output->counts.push_back({"lights_left_out", report.lights.bad + std::uint64_t{report.left_out}});
+    if (output) output->counts.push_back({"lights_left_out", report->lights.bad + std::uint64_t{report->left_out}});
     return output;
 }
 
@@ -193,6 +201,10 @@ Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
     auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
     if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
     return std::move(grid).value();
+}
+
+Result<lights::ListsReport> find_clustered_lists(LightingRun const& on, std::vector<StageTime>& stages) {
+    return find_lists(on, {}, stages);
 }
 
 std::span<LightingTechnique const> clustered_deferred_techniques() noexcept {

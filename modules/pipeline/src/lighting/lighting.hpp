@@ -108,6 +108,23 @@ void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math:
 /// A grid of cubical clusters as deep as the samples go.
 [[nodiscard]] Result<cluster::Grid> make_cluster_grid(LightingRun const& on);
 
+/// The lists of `clustered-deferred` and of `tiled-deferred`, as `shade_lists` takes them.
+///
+/// expects: prepared lights in the workspace's `Lighting`
+[[nodiscard]] Result<lights::ListsReport> find_clustered_lists(LightingRun const& on, std::vector<StageTime>& stages);
+[[nodiscard]] Result<lights::ListsReport> find_tiled_lists(LightingRun const& on, std::vector<StageTime>& stages);
+
+/// Lights that techniques evaluate, of all samples together.
+struct ComputationCounts {
+    std::uint64_t stencil = 0;    ///< `deferred-stencil`: the least.
+    std::uint64_t tiled = 0;      ///< `tiled-deferred`
+    std::uint64_t clustered = 0;  ///< `clustered-deferred`, whose parameters the run has.
+    std::uint64_t clusters = 0;
+};
+
+/// What the three would count, without shading: a fraction of their time.
+[[nodiscard]] Result<ComputationCounts> count_computations(LightingRun const& on);
+
 /// The lists that samples are shaded by, in a `Lighting`: `list_of_sample`, `list_cells`, `list_indices`.
 ///
 /// expects: `begin_lighting` was called. `then` records what comes after the lists, into the same image.

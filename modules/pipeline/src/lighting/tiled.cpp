@@ -94,14 +94,13 @@ void cull_tiles(cluster::GridView const& grid, bool normals, Lighting& l) {
 }
 
 /// `normals`: lights behind all surfaces of a tile are culled by a cone of their normals.
-Result<LightingOutput> run_tiled(LightingRun const& on, bool normals) {
-    Verbs verbs(on.device);
-    Lighting& l = begin_lighting(on, verbs);
+Result<lights::ListsReport> find_lists(LightingRun const& on, bool normals, std::vector<StageTime>& stages) {
+    Lighting& l = on.workspace.state().lighting;
     Stopwatch watch;
     auto grid = make_tile_grid(on);
     if (!grid) return std::move(grid).failure();
     find_tiles(on, *grid, l);
-    std::vector<StageTime> stages{{"tiles", watch.lap_ms()}};
+    stages.push_back({"tiles", watch.lap_ms()});
     if (normals) {
         turn_normals(on, l.format, l.sample_vectors);
         l.cones.resize(grid->clusters());
@@ -116,12 +115,23 @@ Result<LightingOutput> run_tiled(LightingRun const& on, bool normals) {
     lights::fill_lists(l.assignment, std::span<std::uint32_t>(l.list_indices));
     cull_tiles(grid->view(), normals, l);
     stages.push_back({"assign", watch.lap_ms()});
+    return report;
+}
+
+Result<LightingOutput> run_tiled(LightingRun const& on, bool normals) {
+    Verbs verbs(on.device);
+    (void)begin_lighting(on, verbs);
+    std::vector<StageTime> stages;
+    auto report = find_lists(on, normals, stages);
+    if (!report) return std::move(report).failure();
     auto output = shade_lists(on, verbs, std::move(stages));
-    if (output) output->counts.push_back({"lights_left_out", report.lights.bad + std::uint64_t{report.left_out}});
+    if (output) output->counts.push_back({"lights_left_out", report->lights.bad + std::uint64_t{report->left_out}});
     return output;
 }
 
 }  // namespace
+
+Result<lights::ListsReport> find_tiled_lists(LightingRun const& on, std::vector<StageTime>& stages) { return find_lists(on, false, stages); }
 
 LightingTechnique tiled_deferred_technique() noexcept {
     return {"tiled-deferred", "lights assigned to tiles of pixels, culled by each tile's nearest and farthest sample",
