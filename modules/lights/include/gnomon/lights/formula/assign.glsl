@@ -55,7 +55,8 @@ GN_FN GN_TYPE(GnSpan) gn_light_span(GN_IN(GnLight) light, GN_IN(GN_TYPE(GnRow)) 
     everything.high = GN_FLOAT(gn_far());
     if (light.kind == 2u) return everything;
     GN_TYPE(GnReadyBall) ball = gn_ready_ball(GN_VEC3(light.center), GN_FLOAT(light.range_m), perspective);
-    if (light.kind != 1u || light.cos_half < 0.015625f * light.sin_half) return gn_ball_row(ball, row, perspective);
+    GN_PRECISE float narrowest = 0.015625f * light.sin_half;
+    if (light.kind != 1u || light.cos_half < narrowest) return gn_ball_row(ball, row, perspective);
     GN_TYPE(GnReadySpot) spot =
         gn_ready_spot(ball, GN_VEC3(light.axis), GN_FLOAT(light.cos_half), GN_FLOAT(light.sin_half), perspective);
     return gn_spot_row(spot, row, perspective);

@@ -1,0 +1,31 @@
+// Light lists by the C++ halves of the device's kernels: the host's own, bit for bit.
+
+#include "device_lists.hpp"
+
+#include <gnomon/check/check.hpp>
+#include <gnomon/raster/cpu_backend.hpp>
+
+#include <string>
+
+using namespace gnomon;
+
+TEST_CASE("keys, clusters, bounds, light tree and light lists of the kernels are the host's, in six scenes", "[pipeline][lighting]") {
+    core::SerialExecutor serial;
+    raster::CpuBackend cpu(serial);
+    for (test::DeviceScene const& scene : test::device_scenes) {
+        CAPTURE(scene.name);
+        test::DeviceFrame const frame(scene, {96, 54}, 300);
+        test::check_device_lists(frame, cpu, 8, scene.normal_n);
+    }
+}
+
+TEST_CASE("kernels of light lists take orthographic views, no lights and one light", "[pipeline][lighting]") {
+    core::SerialExecutor serial;
+    raster::CpuBackend cpu(serial);
+    test::DeviceFrame frame(test::device_scenes[0], {80, 45}, 200, true);
+    test::check_device_lists(frame, cpu, 16, 0);
+    frame.lights.resize(1);
+    test::check_device_lists(frame, cpu, 16, 0);
+    frame.lights.clear();
+    test::check_device_lists(frame, cpu, 16, 0);
+}

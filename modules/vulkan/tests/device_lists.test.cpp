@@ -1,0 +1,38 @@
+// Light lists on the device: the host's, bit for bit.
+
+#include "../../pipeline/tests/device_lists.hpp"
+#include "test_host.hpp"
+
+#include <gnomon/check/check.hpp>
+
+using namespace gnomon;
+
+namespace {
+
+void check_scenes_on_device(math::ivec2 size_px, std::size_t scattered, std::int32_t tile_px) {
+    auto const device = vulkan::test::Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::test::TestHost host(*device);
+    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
+    REQUIRE(gpu.has_value());
+    for (test::DeviceScene const& scene : test::device_scenes) {
+        CAPTURE(scene.name);
+        test::DeviceFrame const frame(scene, size_px, scattered);
+        test::check_device_lists(frame, **gpu, tile_px, scene.normal_n);
+    }
+    test::DeviceFrame frame(test::device_scenes[0], size_px, scattered, true);
+    test::check_device_lists(frame, **gpu, tile_px, 0);
+    frame.lights.clear();
+    test::check_device_lists(frame, **gpu, tile_px, 0);
+    CHECK(device->take_messages() == "");
+}
+
+}  // namespace
+
+TEST_CASE("keys, clusters, bounds, light tree and light lists of a device are the host's, in six scenes", "[vulkan][lighting]") {
+    check_scenes_on_device({96, 54}, 300, 8);
+}
+TEST_CASE("keys, clusters, bounds, light tree and light lists of a device are the host's, of 640 x 360 pixels and 5,000 lights",
+          "[vulkan][lighting][.full]") {
+    check_scenes_on_device({640, 360}, 5000, 16);
+}
