@@ -2,6 +2,7 @@
 
 #include "detail.hpp"
 #include "frame_state.hpp"
+#include "lighting/surface_table.hpp"
 
 #include <gnomon/pipeline/image.hpp>
 
@@ -79,6 +80,19 @@ void describe(Frame& frame, predicates::Target const& eye, std::size_t i) {
     frame.samples.uv[i] = math::vec2(static_cast<float>(uv.x), static_cast<float>(uv.y));
 }
 
+/// The same, and the position, by the formula that fragment shaders use.
+void describe_by_formula(Frame& frame, FrameState& state, CameraRays const& rays, std::size_t i) {
+    auto const width = static_cast<std::uint32_t>(frame.view.size_px.x);
+    std::uint32_t const pixel = frame.samples.pixel[i];
+    math::vec2 const px(static_cast<float>(pixel % width) + 0.5F, static_cast<float>(pixel / width) + 0.5F);
+    auto const t = triangle_of(*frame.geometry, frame.samples.triangle[i]);
+    auto const at = gn_surface_point(rays.camera, formula::Vec2<float>(px), t);
+    frame.samples.position[i] = state.samples[i].position = math::vec3(at.position);
+    frame.samples.normal[i] = math::vec3(at.normal);
+    frame.samples.shading_normal[i] = math::vec3(at.shading_normal);
+    frame.samples.uv[i] = math::vec2(at.uv.x.v, at.uv.y.v);
+}
+
 /// Whether the light's range and cone hold the sample.
 bool is_reached(Frame const& frame, std::size_t i) noexcept {
     if (frame.light.kind == LightKind::directional) return true;
@@ -91,7 +105,8 @@ bool is_reached(Frame const& frame, std::size_t i) noexcept {
 }
 
 /// Compacts the image's view samples into the frame's lists.
-void gather(Frame& frame, FrameState& state, std::vector<sample::ViewSample> const& image, core::ExecutorRef executor) {
+void gather(Frame& frame, FrameState& state, std::vector<sample::ViewSample> const& image, SampleRule rule,
+            core::ExecutorRef executor) {
     Samples& s = frame.samples;
     frame.sample_of_pixel.assign(image.size(), no_sample);
     for (std::size_t pixel = 0; pixel < image.size(); ++pixel) {
@@ -107,9 +122,13 @@ void gather(Frame& frame, FrameState& state, std::vector<sample::ViewSample> con
     s.shading_normal.resize(n);
     s.uv.resize(n);
     frame.reached.resize(n);
+    CameraRays const rays = make_camera_rays(frame.view, frame.geometry->origin_m);
     executor.parallel_for(n, sample_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            describe(frame, state.eye, i);
+            if (rule == SampleRule::formula)
+                describe_by_formula(frame, state, rays, i);
+            else
+                describe(frame, state.eye, i);
             frame.reached[i] = is_reached(frame, i) ? 1 : 0;
         }
     });
@@ -212,7 +231,7 @@ Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geome
     std::vector<sample::ViewSample> image(ids.size());
     sample::make_view_samples({shot.view, geometry.origin_m, triangles_of(frame, *state)}, ids,
                               std::span<sample::ViewSample>(image), executor);
-    gather(frame, *state, image, executor);
+    gather(frame, *state, image, shot.samples, executor);
     frame.stages.push_back({"samples", watch.lap_ms()});
     if (shot.truth) {
         frame.lit = trace_lit(frame, *state, state->surfaces->bvh, executor);

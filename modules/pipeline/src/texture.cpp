@@ -41,15 +41,17 @@ MipChain::MipChain(scene::Image const& image) {
         for (std::int32_t y = 0; y < size.y; ++y)
             for (std::int32_t x = 0; x < size.x; ++x) {
                 std::array<float, 3> sum{};
+                unsigned alpha = 2;  // rounds to nearest
                 for (std::int32_t k = 0; k < 4; ++k) {
                     std::int32_t const sx = std::min(2 * x + (k & 1), from.size_px.x - 1);
                     std::int32_t const sy = std::min(2 * y + (k >> 1), from.size_px.y - 1);
                     std::uint8_t const* const texel = from.rgba + 4 * (std::ptrdiff_t{sy} * from.size_px.x + sx);
                     for (std::size_t c = 0; c < 3; ++c) sum[c] += linear_from_srgb(texel[c]);
+                    alpha += texel[3];
                 }
                 std::uint8_t* const out = texels.data() + 4 * (std::ptrdiff_t{y} * size.x + x);
                 for (std::size_t c = 0; c < 3; ++c) out[c] = srgb_from_linear(sum[c] * 0.25F);
-                out[3] = 255;
+                out[3] = static_cast<std::uint8_t>(alpha / 4);
             }
         storage_.push_back(std::move(texels));
         levels_.push_back({size, storage_.back().data()});

@@ -4,7 +4,9 @@
 #include <gnomon/math/vec.hpp>
 #include <gnomon/scene/scene.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace gnomon::pipeline {
@@ -20,6 +22,12 @@ class MipChain {
     /// Linear colour at `uv`, averaged over about `texels_per_pixel` texels each way.
     [[nodiscard]] math::vec3 at(math::vec2 const& uv, float texels_per_pixel, scene::Texture const& use) const noexcept;
     [[nodiscard]] math::ivec2 size_px() const noexcept { return levels_.front().size_px; }
+    [[nodiscard]] std::size_t levels() const noexcept { return levels_.size(); }
+    /// Texels of a level, packed rows.
+    [[nodiscard]] std::span<std::uint8_t const> rgba(std::size_t level) const noexcept {
+        Level const& l = levels_[level];
+        return {l.rgba, static_cast<std::size_t>(l.size_px.x) * static_cast<std::size_t>(l.size_px.y) * 4};
+    }
 
   private:
     struct Level {

@@ -63,6 +63,12 @@ struct Frame {
     std::vector<StageTime> stages;  ///< camera_pass, samples, truth_build, truth_trace.
 };
 
+/// How view samples are placed.
+enum class SampleRule : std::uint8_t {
+    exact,    ///< In double, and exactly on the eye's side of the own plane: what tests of visibility need.
+    formula,  ///< By formula/surface.glsl, in float: what fragment shaders compute of triangle and pixel, to the bit.
+};
+
 /// One picture to take.
 struct Shot {
     math::View view;
@@ -70,6 +76,7 @@ struct Shot {
     bool truth = true;  ///< Off: no exact shadows, so no errors; a fraction of the time.
     /// A frame of the same scene and geometry, neither changed since: its hierarchy serves again. May be null.
     Frame const* before = nullptr;
+    SampleRule samples = SampleRule::exact;
 };
 
 /// Draws the camera pass, places the view samples and traces the truth.
