@@ -76,5 +76,9 @@ struct AlphaRule {
 [[nodiscard]] LightingTechnique tiled_deferred_en_technique() noexcept;
 [[nodiscard]] std::span<LightingTechnique const> clustered_deferred_techniques() noexcept;
 [[nodiscard]] LightingTechnique clustered_deferred_device_technique() noexcept;
+[[nodiscard]] LightingTechnique forward_technique() noexcept;
+[[nodiscard]] LightingTechnique tiled_forward_technique() noexcept;
+[[nodiscard]] LightingTechnique tiled_forward_prez_technique() noexcept;
+[[nodiscard]] LightingTechnique clustered_forward_technique() noexcept;
 
 }  // namespace gnomon::pipeline

@@ -27,6 +27,7 @@ std::vector<LightingTechnique> const& lighting_table() noexcept {
         std::span<LightingTechnique const> const clustered = clustered_deferred_techniques();
         list.insert(list.end(), clustered.begin(), clustered.end());
         list.push_back(clustered_deferred_device_technique());
+        list.insert(list.end(), {forward_technique(), tiled_forward_technique(), tiled_forward_prez_technique(), clustered_forward_technique()});
         return list;
     }();
     return all;

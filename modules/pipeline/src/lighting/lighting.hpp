@@ -7,6 +7,7 @@
 #include <gnomon/pipeline/lighting.hpp>
 
 #include "device_lists.hpp"
+#include "forward.hpp"
 #include "gbuffer.hpp"
 #include "light_kernels.hpp"
 #include "../staged.hpp"
@@ -69,6 +70,7 @@ struct Lighting {
     lights::SparseWorkspace sparse;
 
     DeviceLists on_device;
+    ForwardState forward;
 
     /// Writes the G-buffer unless this frame's is there.
     void fit_gbuffer(Verbs& verbs, Frame const& frame, GBufferFormat wanted, core::ExecutorRef executor);

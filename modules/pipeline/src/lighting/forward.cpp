@@ -1,0 +1,198 @@
+// The techniques `forward`, `tiled-forward`, `tiled-forward-prez` and `clustered-forward`: lights evaluated where fragments
+// are. [Olsson 2014, Paper I, 3; Paper II, 4]
+
+#include "forward.hpp"
+#include "lighting.hpp"
+#include "surface_table.hpp"
+#include "../workspace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+enum class ForwardKind : std::uint8_t { all_lights, tiled, tiled_prez, clustered };
+
+std::array<ParamInfo, 1> const& forward_params() noexcept {
+    static std::array<ParamInfo, 1> const all{{tile_param}};
+    return all;
+}
+
+Held<backend::DrawListId> keep(Verbs& verbs, std::span<backend::Draw const> draws) {
+    return Held(verbs.device(), verbs(verbs.device().keep(draws)));
+}
+
+Result<ForwardGrid> make_lists(ForwardKind kind, LightingRun const& on, Lighting& l) {
+    switch (kind) {
+        case ForwardKind::all_lights: return list_all(on.frame, l.prepared.shaded.size());
+        case ForwardKind::tiled: return list_by_tile(on, l, false);
+        case ForwardKind::tiled_prez: return list_by_tile(on, l, true);
+        case ForwardKind::clustered: return list_by_cluster(on, l);
+    }
+    return list_all(on.frame, l.prepared.shaded.size());
+}
+
+/// One pass of the fragment kernel.
+struct ForwardPass {
+    backend::DrawListId list;
+    backend::PassLayer layer;
+    ForwardStd constants;
+    backend::FragmentTest test = backend::FragmentTest::nearer;
+    backend::Load color = backend::Load::clear;
+};
+
+void shade(Verbs& verbs, Lighting& l, ForwardPass const& pass) {
+    ForwardState& f = l.forward;
+    std::array const buffers{f.vertices.get(), f.triangles.get(), f.materials.get(), f.texels.get(), f.rays.get(),
+                             l.lights.get(),   f.depths.get(),    f.cells.get(),     f.indices.get()};
+    backend::TargetBinding const ids{f.target.get(), backend::Plane::triangle};
+    backend::FragmentCall const call{.buffers = buffers,
+                                     .targets = {&ids, 1},
+                                     .constants = backend::bytes_of(pass.constants),
+                                     .test = pass.test,
+                                     .color = pass.color};
+    verbs(verbs.device().shade(pass.list, f.target.get(), pass.layer, forward_kernel, call));
+}
+
+/// Shades all surfaces as they come, nearer ones over farther ones. Alpha tests are made first, in a pass of depth.
+void shade_in_order(Verbs& verbs, Lighting& l, Frame const& frame, ForwardStd constants) {
+    ForwardState& f = l.forward;
+    ForwardPass pass{f.solid.get(), layer_of(frame), constants};
+    shade(verbs, l, pass);
+    if (!f.has_masked) return;
+    pass.layer.load = backend::Load::keep;
+    verbs(verbs.device().draw(f.masked.get(), f.target.get(), {&pass.layer, 1}));
+    pass.list = f.masked.get();
+    pass.constants.once = 1;
+    pass.test = backend::FragmentTest::visible;
+    pass.color = backend::Load::keep;
+    shade(verbs, l, pass);
+}
+
+/// Depth and ids first, then each pixel once.
+void shade_visible(Verbs& verbs, Lighting& l, Frame const& frame, ForwardStd constants) {
+    ForwardState& f = l.forward;
+    ForwardPass pass{f.all.get(), layer_of(frame), constants, backend::FragmentTest::visible, backend::Load::clear};
+    verbs.device().stage("depth_pass");
+    verbs(verbs.device().draw(pass.list, f.target.get(), {&pass.layer, 1}));
+    verbs.device().stage("shade");
+    pass.layer.load = backend::Load::keep;
+    pass.constants.once = 1;
+    shade(verbs, l, pass);
+}
+
+LightingOutput gather(Frame const& frame, ForwardGrid const& grid, std::span<math::vec4 const> color) {
+    LightingOutput output;
+    std::uint64_t computations = 0;
+    for (math::vec4 const& c : color) computations += static_cast<std::uint64_t>(c.w);
+    for (std::uint32_t const pixel : frame.samples.pixel) {
+        math::vec4 const& c = color[pixel];
+        output.radiance.emplace_back(c.x, c.y, c.z);
+        output.computations.push_back(static_cast<std::uint32_t>(c.w));
+    }
+    output.counts = {{"lighting_computations", computations},
+                     {"light_pairs", grid.indices.size()},
+                     {"lists", grid.cells.size()},
+                     {"lights_left_out", grid.left_out}};
+    output.bytes = {{"color", color.size_bytes()},
+                    {"lists", grid.cells.size() * sizeof(lights::Cell) + grid.indices.size() * sizeof(std::uint32_t)}};
+    return output;
+}
+
+Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
+    Verbs verbs(on.device);
+    Workspace::State& state = on.workspace.state();
+    state.move_to(on.device);
+    Lighting& l = state.lighting;
+    ForwardState& f = l.forward;
+    prepare_lights(on.frame, on.lights, l.prepared);
+    f.fit(verbs, on.frame);
+    Stopwatch watch;
+    auto grid = make_lists(kind, on, l);
+    if (!grid) return std::move(grid).failure();
+    std::vector<StageTime> stages{{"assign", watch.lap_ms()}};
+    on.device.stage("upload");
+    l.lights.fill<lights::ShadedLight>(verbs, l.prepared.shaded);
+    f.depths.fill<float>(verbs, grid->depth_m);
+    f.cells.fill<lights::Cell>(verbs, grid->cells);
+    f.indices.fill<std::uint32_t>(verbs, grid->indices);
+    on.device.stage("shade");
+    bool const prez = kind == ForwardKind::tiled_prez || kind == ForwardKind::clustered;
+    if (prez)
+        shade_visible(verbs, l, on.frame, grid->constants);
+    else
+        shade_in_order(verbs, l, on.frame, grid->constants);
+    on.device.stage("");
+    math::ivec2 const size = on.frame.view.size_px;
+    f.color.resize(pixel_count(size));
+    verbs(on.device.read({f.target.get(), 0, backend::Plane::color, {0, 0, size.x, size.y}}, std::as_writable_bytes(std::span(f.color))));
+    auto const device_stages = verbs(on.device.finish());
+    if (!verbs.good()) return verbs.failure();
+    LightingOutput output = gather(on.frame, *grid, f.color);
+    output.stages = std::move(stages);
+    output.stages.insert(output.stages.end(), device_stages.begin(), device_stages.end());
+    return output;
+}
+
+}  // namespace
+
+void ForwardState::fit(Verbs& verbs, Frame const& frame) {
+    rays.fill<CameraRays>(verbs, std::array{make_camera_rays(frame.view, frame.geometry->origin_m)});
+    if (config.size_px != frame.view.size_px) {
+        target = {};
+        config = {.size_px = frame.view.size_px, .triangle_ids = true, .color = true};
+        target = Held(verbs.device(), verbs(verbs.device().make_target(config)));
+    }
+    if (surfaces_of == frame.state->surfaces) return;
+    surfaces_of = nullptr;
+    vertices.fill<VertexStd>(verbs, make_vertices(*frame.geometry));
+    triangles.fill<TriangleStd>(verbs, make_triangles(*frame.geometry));
+    MaterialTable const table(*frame.scene, {});
+    materials.fill<MaterialStd>(verbs, table.materials);
+    texels.fill<std::uint32_t>(verbs, table.texels);
+    all = {};
+    solid = {};
+    masked = {};
+    draws = make_draws(*frame.scene, *frame.geometry, raster::Cull::none);
+    std::vector<backend::Draw> without, with;
+    for (backend::Draw const& draw : draws.draws) (draw.alpha_test == nullptr ? without : with).push_back(draw);
+    has_masked = !with.empty();
+    all = keep(verbs, draws.draws);
+    solid = keep(verbs, without);
+    masked = keep(verbs, with);
+    if (verbs.good()) surfaces_of = frame.state->surfaces;
+}
+
+backend::PassLayer layer_of(Frame const& frame) noexcept {
+    backend::PassLayer layer;
+    layer.origin = math::to_float(frame.view.eye_m - frame.geometry->origin_m);
+    layer.clip_from_relative = math::clip_from_relative(frame.view);
+    layer.depth = frame.view.depth;
+    return layer;
+}
+
+LightingTechnique forward_technique() noexcept {
+    return {"forward", "every light for every fragment, overdraw included", {},
+            [](LightingRun const& on) { return run_forward(ForwardKind::all_lights, on); }};
+}
+
+LightingTechnique tiled_forward_technique() noexcept {
+    return {"tiled-forward", "each fragment under the lights of its tile, overdraw included", forward_params(),
+            [](LightingRun const& on) { return run_forward(ForwardKind::tiled, on); }};
+}
+
+LightingTechnique tiled_forward_prez_technique() noexcept {
+    return {"tiled-forward-prez", "after a pass of depth: lights by tile, culled by each tile's nearest and farthest sample", forward_params(),
+            [](LightingRun const& on) { return run_forward(ForwardKind::tiled_prez, on); }};
+}
+
+LightingTechnique clustered_forward_technique() noexcept {
+    return {"clustered-forward", "after a pass of depth: each visible fragment under the lights of its cluster", forward_params(),
+            [](LightingRun const& on) { return run_forward(ForwardKind::clustered, on); }};
+}
+
+}  // namespace gnomon::pipeline

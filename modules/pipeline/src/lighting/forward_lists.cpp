@@ -1,0 +1,94 @@
+// The lists of lights that fragments look up.
+
+#include "forward.hpp"
+#include "lighting.hpp"
+
+#include <gnomon/cull/depth_range.hpp>
+#include <gnomon/cull/rows.hpp>
+
+#include <array>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+/// Lists of every cluster of a grid.
+ForwardGrid list_by(cluster::Grid const& grid, std::uint32_t tile, Lighting& l) {
+    cluster::GridView const view = grid.view();
+    ForwardGrid made;
+    made.constants.tile = tile;
+    made.constants.columns = view.columns();
+    made.constants.rows = view.rows();
+    made.constants.slices = view.slices();
+    made.depth_m.assign(view.depth_m.begin(), view.depth_m.end());
+    made.cells.resize(view.clusters());
+    auto const report = lights::count_lists(cull::make_row_grid(view), l.prepared.culled, {}, l.assignment, made.cells);
+    made.indices.resize(report.written);
+    lights::fill_lists(l.assignment, std::span<std::uint32_t>(made.indices));
+    made.left_out = report.lights.bad + std::uint64_t{report.left_out};
+    return made;
+}
+
+/// Each tile's nearest and farthest sample.
+std::vector<cull::DepthRange> ranges_of_tiles(Frame const& frame, ForwardStd const& grid) {
+    std::vector<cull::DepthRange> ranges(std::size_t{grid.columns} * grid.rows);
+    SampleDepth const depth_of(frame);
+    auto const width = static_cast<std::uint32_t>(frame.view.size_px.x);
+    for (std::size_t i = 0; i < frame.samples.size(); ++i) {
+        std::uint32_t const pixel = frame.samples.pixel[i];
+        std::size_t const tile = std::size_t{pixel / width / grid.tile} * grid.columns + pixel % width / grid.tile;
+        ranges[tile].add(depth_of(frame.samples.position[i]));
+    }
+    return ranges;
+}
+
+/// Takes the lights out that lie before or behind all of a tile's range.
+void cull_tiles(std::span<cull::DepthRange const> ranges, std::span<lights::Light const> lights, ForwardGrid& grid) {
+    std::uint32_t kept = 0;
+    for (std::size_t tile = 0; tile < grid.cells.size(); ++tile) {
+        lights::Cell const cell = grid.cells[tile];
+        std::uint32_t const begin = kept;
+        for (std::uint32_t k = 0; k < cell.count; ++k) {
+            std::uint32_t const index = grid.indices[cell.offset + k];
+            lights::Light const& light = lights[index];
+            bool const everywhere = light.kind == lights::Kind::directional;
+            if (everywhere || cull::may_touch(ranges[tile], light.center.z, light.range_m)) grid.indices[kept++] = index;
+        }
+        grid.cells[tile] = {begin, kept - begin};
+    }
+    grid.indices.resize(kept);
+}
+
+}  // namespace
+
+ForwardGrid list_all(Frame const& frame, std::size_t lights) {
+    ForwardGrid made;
+    made.constants.tile = static_cast<std::uint32_t>(std::max(frame.view.size_px.x, frame.view.size_px.y));
+    made.cells = {{0, static_cast<std::uint32_t>(lights)}};
+    made.indices.resize(lights);
+    std::iota(made.indices.begin(), made.indices.end(), 0U);
+    return made;
+}
+
+Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, bool by_depth) {
+    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
+    std::array<float, 2> const planes{static_cast<float>(on.frame.view.near_m), std::numeric_limits<float>::infinity()};
+    auto slices = cluster::make_slices(std::span<float const>(planes));
+    if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
+    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
+    if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
+    ForwardGrid made = list_by(*grid, static_cast<std::uint32_t>(tile), l);
+    if (by_depth) cull_tiles(ranges_of_tiles(on.frame, made.constants), l.prepared.culled, made);
+    return made;
+}
+
+Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l) {
+    auto grid = make_cluster_grid(on);
+    if (!grid) return std::move(grid).failure();
+    return list_by(*grid, static_cast<std::uint32_t>(on.params.integer("tile")), l);
+}
+
+}  // namespace gnomon::pipeline
