@@ -101,7 +101,7 @@ Shaded surface_at(uint triangle, vec2 px) {
     GnTriangle t = triangle_at(corner.xyz);
     GnSurfacePoint at = gn_surface_point(camera, px, t);
     Material m = materials[corner.w];
-    float density = gn_texels_per_pixel(camera, pixel_m, t, at, float(m.width), float(m.height));
+    float density = gn_texels_per_pixel(camera, pixel_m, t, at, vec2(float(m.width), float(m.height)));
     vec4 base = base_color_of(m, at.uv, density);
     GnReflectance r = gn_reflectance(base.xyz, m.metallic, m.scale, vec3(m.emissive_r, m.emissive_g, m.emissive_b));
     Shaded s;

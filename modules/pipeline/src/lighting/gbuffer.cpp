@@ -24,8 +24,7 @@ GBufferTexel texel_of(Frame const& frame, MaterialTable const& table, std::size_
     formula::GnSurfacePoint<float> const at{Vec3(frame.samples.position[i]), Vec3(frame.samples.normal[i]),
                                             Vec3(frame.samples.shading_normal[i]), formula::Vec2<float>(uv)};
     using Float = formula::Float<float>;
-    auto const density = gn_texels_per_pixel(rays.camera, rays.pixel_m, t, at, Float(static_cast<float>(m.width)),
-                                             Float(static_cast<float>(m.height)));
+    auto const density = gn_texels_per_pixel(rays.camera, rays.pixel_m, t, at, size_of(m));
     math::vec4 const base = base_color_of(m, table.texels, at.uv, density);
     auto const r = gn_reflectance(Vec3(base.x, base.y, base.z), Float(m.metallic), Float(m.scale),
                                   Vec3(m.emissive[0], m.emissive[1], m.emissive[2]));

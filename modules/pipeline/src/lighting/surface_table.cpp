@@ -149,6 +149,10 @@ formula::GnTriangle<float> triangle_of(scene::Geometry const& g, std::uint32_t t
     return triangle_of(vertex_of(g, corner[0]), vertex_of(g, corner[1]), vertex_of(g, corner[2]));
 }
 
+formula::Vec2<float> size_of(MaterialStd const& m) noexcept {
+    return {static_cast<float>(m.width), static_cast<float>(m.height)};
+}
+
 math::vec4 base_color_of(MaterialStd const& m, std::span<std::uint32_t const> texels, formula::Vec2<float> const& uv,
                          formula::Float<float> texels_per_pixel) noexcept {
     if (m.levels == 0) return {m.base[0], m.base[1], m.base[2], m.opacity};
@@ -171,7 +175,7 @@ SurfaceStd SurfaceData::at(std::uint32_t triangle, math::vec2 const& px) const n
     auto const point = gn_surface_point(rays.camera, formula::Vec2<float>(px), t);
     MaterialStd const& m = materials[corners.material];
     using Float = formula::Float<float>;
-    auto const density = gn_texels_per_pixel(rays.camera, rays.pixel_m, t, point, Float(static_cast<float>(m.width)), Float(static_cast<float>(m.height)));
+    auto const density = gn_texels_per_pixel(rays.camera, rays.pixel_m, t, point, size_of(m));
     math::vec4 const base = base_color_of(m, texels, point.uv, density);
     auto const r = gn_reflectance(rgb(base), Float(m.metallic), Float(m.scale),
                                   formula::Vec3<float>(m.emissive[0], m.emissive[1], m.emissive[2]));

@@ -61,6 +61,8 @@ struct MaterialTable {
 [[nodiscard]] formula::GnTriangle<float> triangle_of(VertexStd const& a, VertexStd const& b, VertexStd const& c) noexcept;
 [[nodiscard]] formula::GnTriangle<float> triangle_of(scene::Geometry const& geometry, std::uint32_t triangle) noexcept;
 
+/// Of its texture, in texels.
+[[nodiscard]] formula::Vec2<float> size_of(MaterialStd const& material) noexcept;
 /// Linear base colour and opacity, filtered over a pixel.
 [[nodiscard]] math::vec4 base_color_of(MaterialStd const& material, std::span<std::uint32_t const> texels,
                                        formula::Vec2<float> const& uv, formula::Float<float> texels_per_pixel) noexcept;

@@ -87,10 +87,10 @@ GN_FN GN_TYPE(GnSurfacePoint) gn_surface_point(GN_IN(GnRayCamera) camera, GN_VEC
     return r;
 }
 
-/// Texels of mip 0 that a pixel is wide, for a texture of `size_x` x `size_y`. `pixel_m` is the pixel's width at 1 m, or at
+/// Texels of mip 0 that a pixel is wide, for a texture of `size`. `pixel_m` is the pixel's width at 1 m, or at
 /// any distance of an orthographic view.
 GN_FN GN_FLOAT gn_texels_per_pixel(GN_IN(GnRayCamera) camera, float pixel_m, GN_IN(GN_TYPE(GnTriangle)) t,
-                                   GN_IN(GN_TYPE(GnSurfacePoint)) at, GN_FLOAT size_x, GN_FLOAT size_y) {
+                                   GN_IN(GN_TYPE(GnSurfacePoint)) at, GN_VEC2 size) {
     GN_VEC3 sight = gn_sight(camera, at.position);
     GN_FLOAT distance_m = gn_max(gn_sqrt(gn_dot(sight, sight)), GN_FLOAT(1e-6));
     GN_PRECISE GN_VEC3 to_eye = sight * gn_div(GN_FLOAT(1.0), distance_m);
@@ -104,7 +104,7 @@ GN_FN GN_FLOAT gn_texels_per_pixel(GN_IN(GnRayCamera) camera, float pixel_m, GN_
     GN_PRECISE GN_VEC2 p = t.uv_b - t.uv_a;
     GN_PRECISE GN_VEC2 q = t.uv_c - t.uv_a;
     GN_PRECISE GN_FLOAT uv_area = p.x * q.y - p.y * q.x;
-    GN_PRECISE GN_FLOAT texels = (abs(uv_area) * size_x) * size_y;
+    GN_PRECISE GN_FLOAT texels = (abs(uv_area) * size.x) * size.y;
     GN_BOOL usable = area > 0.0;
     GN_FLOAT density = gn_sqrt(gn_div(texels, GN_SELECT(usable, area, GN_FLOAT(1.0))));
     GN_PRECISE GN_FLOAT result = GN_SELECT(usable, density, GN_FLOAT(0.0)) * footprint_m;
