@@ -37,6 +37,7 @@ Properties properties_of(Functions const& functions, VkPhysicalDevice physical) 
     p.subgroup_size = vulkan11.subgroupSize;
     p.rounds_to_nearest_f32 = vulkan12.shaderRoundingModeRTEFloat32 == VK_TRUE;
     p.keeps_denormals_f32 = vulkan12.shaderDenormPreserveFloat32 == VK_TRUE;
+    p.keeps_nan_f32 = vulkan12.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
     static_assert(sizeof p.name == sizeof all.properties.deviceName);
     std::memcpy(p.name, all.properties.deviceName, sizeof p.name);
     p.api_version = all.properties.apiVersion;

@@ -28,7 +28,8 @@ struct Properties {
     VkPhysicalDeviceLimits limits{};
     std::uint32_t subgroup_size = 1;
     bool rounds_to_nearest_f32 = false;  ///< Shaders can ask for round-to-nearest-even.
-    bool keeps_denormals_f32 = false;
+    bool keeps_denormals_f32 = false;    ///< Shaders can ask for subnormal operands and results as they are.
+    bool keeps_nan_f32 = false;          ///< Shaders can ask that NaN, infinities and the sign of zero count.
     char name[VK_MAX_PHYSICAL_DEVICE_NAME_SIZE] = {};
     std::uint32_t api_version = 0;
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;

@@ -1,5 +1,5 @@
 #pragma once
-// Shader modules from SPIR-V words, with arithmetic that no driver may contract.
+// Shader modules from SPIR-V words, with arithmetic that no driver may contract or take for that of ordinary numbers.
 
 #include <gnomon/vulkan/gpu.hpp>
 
@@ -18,7 +18,22 @@ namespace gnomon::vulkan {
 /// returns: the words as they are where they are no SPIR-V.
 [[nodiscard]] std::vector<std::uint32_t> without_contraction(std::span<std::uint32_t const> words);
 
-/// returns: the module of `without_contraction(words)`, or `shader_rejected` with `name`.
+/// What a shader's 32-bit arithmetic is asked to keep to.
+struct FloatControls {
+    bool nan_and_zero_signs = false;  ///< Else a comparison and a choice may become a minimum that knows neither.
+    bool denormals = false;
+    bool round_to_nearest = false;
+};
+
+/// All that the device can be asked for.
+[[nodiscard]] FloatControls float_controls_of(Properties const& properties) noexcept;
+
+/// The module with these asked for at every entry point (SPV_KHR_float_controls).
+///
+/// returns: the words as they are where they are no SPIR-V, or nothing is asked for.
+[[nodiscard]] std::vector<std::uint32_t> with_float_controls(std::span<std::uint32_t const> words, FloatControls const& controls);
+
+/// returns: the module of `without_contraction(words)` with all float controls that the device has, or `shader_rejected` with `name`.
 [[nodiscard]] Result<UniqueShader> make_shader(GpuRef const& gpu, std::span<std::uint32_t const> words,
                                                std::string_view name);
 
