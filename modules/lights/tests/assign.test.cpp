@@ -47,7 +47,7 @@ void check_search(std::size_t tries) {
         formula::GnRow<float> const borders = grid.row(row, slice);
         auto const box = gn_cluster_box(borders, Float(grid.left[column]), Float(grid.right[column]), grid.perspective);
         formula::Vec3<float> const center(light.center);
-        bool const found = gn_may_hold(box, gn_box_of(formula::GnSphere<float>{center, gn_tree_radius(center, Float(light.range_m))})).v;
+        bool const found = gn_may_hold(box, gn_box_of(formula::GnSphere<float>{center, Float(light.range_m)})).v;
         bool const touches = lights::may_touch(grid, light, column, row, slice);
         auto const span = gn_light_span(shader_light(light), borders, grid.perspective);
         different += gn_touches(span, Float(grid.left[column]), Float(grid.right[column])).v != touches ? 1U : 0U;

@@ -4,7 +4,38 @@
 #include <gnomon/lights/formula/lookup.glsl>
 #include <gnomon/lights/planes.hpp>
 
+#include "shaders/lookup_frag.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
 using namespace gnomon;
+
+namespace {
+
+std::string text_of(std::filesystem::path const& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("the file that shaders copy stands alone, and the README's shader is the one that is compiled", "[lights]") {
+    std::filesystem::path const tests = std::filesystem::path(__FILE__).parent_path();
+    std::filesystem::path const module = tests.parent_path();
+    std::string const file = text_of(module / "include" / "gnomon" / "lights" / "formula" / "lookup.glsl");
+    std::size_t const only = file.find("\n#include");
+    REQUIRE(only != std::string::npos);
+    CHECK(file.rfind("\n#ifdef __cplusplus", only) + std::string("\n#ifdef __cplusplus").size() == only);
+    CHECK(file.find("\n#include", only + 1) == std::string::npos);
+    std::string const shader = text_of(tests / "shaders" / "lookup.frag");
+    CHECK(shader.find("lookup.glsl") != std::string::npos);
+    CHECK(text_of(module / "README.md").find("```glsl\n" + shader + "```") != std::string::npos);
+    // Empty where there is no glslc.
+    CHECK((gnomon::lights::test::lookup_frag.empty() || gnomon::lights::test::lookup_frag[0] == 0x07230203U));
+}
 
 TEST_CASE("a shader's lookup finds the words and indices that the assignment wrote", "[lights]") {
     test::YardGrid const yard;

@@ -11,13 +11,14 @@
 
 #include "device_state.glsl"
 #include "gnomon/backend/tile.glsl"
+#include "ready_light.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 0) readonly buffer State { DeviceState state; };
 layout(std430, set = 0, binding = 1) readonly buffer Unique { uint unique_keys[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Lights { GnLight lights[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Ready { float ready[]; };
 layout(std430, set = 0, binding = 4) readonly buffer TreeItems { float tree_items[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Nodes { float nodes[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Ids { uint ids[]; };
@@ -65,6 +66,41 @@ GnBox node_box(uint level, uint node) {
                  vec3(nodes[3u * slots + at], nodes[4u * slots + at], nodes[5u * slots + at]));
 }
 
+vec3 vec3_at(uint at) { return vec3(ready[at], ready[at + 1u], ready[at + 2u]); }
+GnSpan span_at(uint at) { return GnSpan(ready[at], ready[at + 1u]); }
+
+GnReadyBall ball_at(uint at) {
+    GnBall ball = GnBall(vec3_at(at), ready[at + 3u], ready[at + 4u], ready[at + 5u]);
+    GnArc cap = GnArc(span_at(at + 6u), ready[at + 8u], ready[at + 9u], ready[at + 10u], ready[at + 11u]);
+    return GnReadyBall(ball, cap, ready[at + 12u], ready[at + 13u], span_at(at + 14u), span_at(at + 16u));
+}
+
+GnSilhouette silhouette_at(uint at) { return GnSilhouette(ready[at] != 0.0, ready[at + 1u], ready[at + 2u], ready[at + 3u]); }
+
+GnLine line_at(uint at) { return GnLine(ready[at], ready[at + 1u], ready[at + 2u]); }
+
+GnReadySpot spot_at(uint at) {
+    GnReadySpot spot;
+    spot.ready = ball_at(at);
+    spot.cone = GnCone(vec3_at(at + 18u), ready[at + 21u], ready[at + 22u], ready[at + 23u], ready[at + 24u], span_at(at + 25u));
+    spot.outline = GnOutline(silhouette_at(at + 27u), silhouette_at(at + 31u));
+    for (uint k = 0u; k < 4u; ++k) {
+        uint side = at + 35u + 8u * k;
+        spot.side[k] = GnSide(ready[side], line_at(side + 1u), line_at(side + 4u), ready[side + 7u]);
+    }
+    return spot;
+}
+
+/// The predicate.
+bool touches(uint light, GnRow row, float left, float right) {
+    bool perspective = c.perspective != 0u;
+    uint at = light * ready_words;
+    GnSpan span;
+    if (ready[at + ready_kind] == 2.0) span = gn_spot_row(spot_at(at), row, perspective);
+    else span = gn_ball_row(ball_at(at), row, perspective);
+    return gn_touches(span, left, right);
+}
+
 void take(uint first, uint light) {
     uint at = atomicAdd(found, 1u);
     if (c.fill != 0u) list[first + at] = light;
@@ -98,7 +134,7 @@ void assign_cluster(uint cluster, uint lane) {
             uint batch = min(in_queue, lanes);
             if (lane < batch) {
                 uint light = ids[queue[in_queue - batch + lane]];
-                if (gn_touches(gn_light_span(lights[light], row, perspective), left, right)) take(first, light);
+                if (touches(light, row, left, right)) take(first, light);
             }
             barrier();
             if (lane == 0u) queue_count = in_queue - batch;

@@ -40,7 +40,7 @@ void add_light(uint i) {
         atomicAdd(state.bad, 1u);
         return;
     }
-    items[i] = vec4(light.center, gn_tree_radius(light.center, light.range_m));
+    items[i] = vec4(light.center, light.range_m);
     atomicAdd(usable, 1u);
     for (uint axis = 0u; axis < 3u; ++axis) {
         precise float half_center = light.center[axis] * 0.5;

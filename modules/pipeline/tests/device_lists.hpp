@@ -152,17 +152,7 @@ struct HostLists {
         (void)cluster::explicit_bounds(index, places, bounds, reduce);
     }
     void build_tree(pipeline::DeviceListsInput const& in) {
-        std::vector<float> x, y, z, radius;
-        for (lights::Light const& l : in.lights) {
-            math::vec3 const c = l.center;
-            x.push_back(c.x);
-            y.push_back(c.y);
-            z.push_back(c.z);
-            bool const takes_part = lights::is_sound(l) && l.kind != lights::Kind::directional;
-            float const r = l.range_m;
-            radius.push_back(takes_part ? r + 3.814697265625e-6F * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + r) : -1.0F);
-        }
-        tree = bvh::build_tree(bvh::Spheres{x, y, z, radius});
+        tree = lights::build_light_tree(in.lights, ~0U).tree;
     }
     void assign(pipeline::DeviceListsInput const& in) {
         cluster::GridView const view = in.grid.view();

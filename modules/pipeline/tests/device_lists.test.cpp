@@ -19,7 +19,7 @@ TEST_CASE("keys, clusters, bounds, light tree and light lists of the kernels are
     }
 }
 
-TEST_CASE("kernels of light lists take orthographic views, no lights and one light", "[pipeline][lighting]") {
+TEST_CASE("kernels of light lists take orthographic views, no lights, one light and 1,500 that are everywhere", "[pipeline][lighting]") {
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     test::DeviceFrame frame(test::device_scenes[0], {80, 45}, 200, true);
@@ -28,4 +28,6 @@ TEST_CASE("kernels of light lists take orthographic views, no lights and one lig
     test::check_device_lists(frame, cpu, 16, 0);
     frame.lights.clear();
     test::check_device_lists(frame, cpu, 16, 0);
+    frame.lights.assign(1500, pipeline::bulb(math::dvec3(0.0)));
+    test::check_device_lists(frame, cpu, 32, 0);
 }

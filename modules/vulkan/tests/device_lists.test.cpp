@@ -24,13 +24,15 @@ void check_scenes_on_device(math::ivec2 size_px, std::size_t scattered, std::int
     test::check_device_lists(frame, **gpu, tile_px, 0);
     frame.lights.clear();
     test::check_device_lists(frame, **gpu, tile_px, 0);
+    frame.lights.assign(1500, pipeline::bulb(math::dvec3(0.0)));
+    test::check_device_lists(frame, **gpu, 4 * tile_px, 0);
     CHECK(device->take_messages() == "");
 }
 
 }  // namespace
 
 TEST_CASE("keys, clusters, bounds, light tree and light lists of a device are the host's, in six scenes", "[vulkan][lighting]") {
-    check_scenes_on_device({96, 54}, 300, 8);
+    check_scenes_on_device({96, 54}, 200, 16);
 }
 TEST_CASE("keys, clusters, bounds, light tree and light lists of a device are the host's, of 640 x 360 pixels and 5,000 lights",
           "[vulkan][lighting][.full]") {

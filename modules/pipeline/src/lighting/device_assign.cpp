@@ -2,20 +2,53 @@
 
 #include <shaders/assign_lights_comp.hpp>
 #include <shaders/order_lists_comp.hpp>
+#include <shaders/ready_lights_comp.hpp>
 
 #include "device_tree.hpp"
 
 #include <gnomon/cluster/key.hpp>
+#include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/formula/assign.glsl>
 #include <gnomon/lights/lists.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 namespace gnomon::pipeline {
 
 namespace {
+
+/// What the predicate needs of a light.
+struct ReadyLight {
+    cull::ReadySpot spot;
+    bool narrow;
+};
+static_assert(sizeof(ReadyLight) <= ready_words * 4 && std::is_trivially_copyable_v<ReadyLight>);
+
+struct ReadyRecord {
+    alignas(ReadyLight) std::byte bytes[ready_words * 4];
+};
+
+void make_ready_lights(backend::KernelData const& data, std::size_t begin, std::size_t end) {
+    auto const c = data.constant<ReadyLightsStd>();
+    auto const lights = data.buffer<formula::GnLight const>(0);
+    auto const balls = data.buffer<std::array<float, 4> const>(1);
+    auto const records = data.buffer<ReadyRecord>(2);
+    bool const perspective = c.perspective != 0;
+    for (std::size_t i = begin; i < std::min<std::size_t>(end, c.count); ++i) {
+        if (!(balls[i][3] >= 0.0F)) continue;
+        formula::GnLight const& l = lights[i];
+        ReadyLight ready{};
+        ready.narrow = gn_is_narrow_spot(l);
+        cull::ReadyBall const ball = cull::ready_ball(l.center, l.range_m, perspective);
+        if (ready.narrow) ready.spot = cull::ready_spot(ball, l.axis, l.cos_half, l.sin_half, perspective);
+        else ready.spot.ready = ball;
+        std::memcpy(records[i].bytes, &ready, sizeof ready);
+    }
+}
 
 /// What `row_tables` writes, taken apart.
 struct TableView {
@@ -43,7 +76,7 @@ struct Assigning {
     TableView tables;
     TreeBuffers tree;
     std::span<std::uint32_t const> unique;
-    std::span<formula::GnLight const> lights;
+    std::span<ReadyRecord const> ready;
     std::span<std::uint32_t const> ids;
     std::span<std::uint32_t const> everywhere;
 
@@ -59,7 +92,10 @@ struct Assigning {
         for (std::size_t i = 0; i < state.everywhere; ++i) found(everywhere[i]);
         visit(box, [&](std::size_t slot) {
             std::uint32_t const light = ids[slot];
-            if (gn_touches(gn_light_span(lights[light], row, perspective), left, right).v) found(light);
+            ReadyLight l;
+            std::memcpy(&l, ready[light].bytes, sizeof l);
+            cull::Span const span = l.narrow ? gn_spot_row(l.spot, row, perspective) : gn_ball_row(l.spot.ready, row, perspective);
+            if (gn_touches(span, left, right).v) found(light);
         });
     }
 
@@ -98,7 +134,7 @@ void assign_device_lights(backend::KernelData const& data, std::size_t begin, st
                          {data.buffer<float const>(2).data(), c},
                          {data.buffer<float const>(4), data.buffer<float const>(5), state},
                          data.buffer<std::uint32_t const>(1),
-                         data.buffer<formula::GnLight const>(3),
+                         data.buffer<ReadyRecord const>(3),
                          data.buffer<std::uint32_t const>(6),
                          data.buffer<std::uint32_t const>(7)};
     auto const offsets = data.buffer<std::uint32_t>(8);
@@ -137,6 +173,12 @@ void order_device_lists(backend::KernelData const& data, std::size_t begin, std:
 
 }  // namespace
 
+constinit backend::Kernel const ready_lights_kernel{.name = "ready_lights",
+                                                    .cpu = &make_ready_lights,
+                                                    .spirv = ready_lights_comp,
+                                                    .buffers = 3,
+                                                    .constant_bytes = sizeof(ReadyLightsStd),
+                                                    .grain = 1024};
 constinit backend::Kernel const assign_lights_kernel{.name = "assign_lights",
                                                      .cpu = &assign_device_lights,
                                                      .spirv = assign_lights_comp,

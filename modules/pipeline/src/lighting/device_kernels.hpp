@@ -130,9 +130,17 @@ extern backend::Kernel const tree_nodes_kernel;
 
 // --- assignment ------------------------------------------------------------------------------------------------------
 //
-// assign_lights   0 state  1 unique keys  2 tables: see row_tables  3 lights  4 items  5 nodes  6 ids  7 everywhere
+// ready_lights    0 lights::Light[n]  1 balls  2 out `ready_words` a light, which only the same backend's kernels read
+// assign_lights   0 state  1 unique keys  2 tables: see row_tables  3 ready lights  4 items  5 nodes  6 ids  7 everywhere
 //                 8 offsets: out counts, or in scanned  9 out cells  10 out list, in no order
 // order_lists     0 state  1 cells  2 list  3 out ordered list
+
+inline constexpr std::uint32_t ready_words = 68;
+
+struct ReadyLightsStd {
+    std::uint32_t count;
+    std::uint32_t perspective;
+};
 
 struct AssignLightsStd {
     std::uint32_t fill;  ///< 0: count into the offsets; 1: write cells and list.
@@ -145,6 +153,7 @@ struct OrderListsStd {
     std::uint32_t groups;
 };
 
+extern backend::Kernel const ready_lights_kernel;
 extern backend::Kernel const assign_lights_kernel;
 extern backend::Kernel const order_lists_kernel;
 

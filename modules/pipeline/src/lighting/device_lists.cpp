@@ -162,7 +162,7 @@ void DeviceLists::assign(Verbs& verbs, DeviceListsInput const& in, bool fill) {
                             in.layout.columns, in.layout.rows,
                             in.layout.slices,  in.grid.table().perspective};
     run_kernel(verbs, assign_lights_kernel, std::size_t{c.groups} * backend::kernel_local_size,
-               std::array{state.get(), unique_keys.get(), tables.get(), lights.get(), items.get(), nodes.get(), ids.get(), everywhere.get(),
+               std::array{state.get(), unique_keys.get(), tables.get(), ready.get(), items.get(), nodes.get(), ids.get(), everywhere.get(),
                           offsets.get(), cells.get(), list.get()},
                c);
 }
@@ -171,6 +171,9 @@ void DeviceLists::count(Verbs& verbs, DeviceListsInput const& in) {
     std::uint32_t const numbers = capacity(in) + 1;
     cells.fit(verbs, std::size_t{capacity(in)} * 8);
     list.fit(verbs, 4);
+    std::size_t const n = in.lights.size();
+    run_kernel(verbs, ready_lights_kernel, n, std::array{lights.get(), balls.get(), ready.fit(verbs, n * ready_words * 4)},
+               ReadyLightsStd{count_of(n), in.grid.table().perspective});
     clear_words(verbs, offsets.fit(verbs, std::size_t{numbers} * 4), numbers, 0);
     assign(verbs, in, false);
     scan_.scan(verbs, offsets.get(), numbers);

@@ -1,6 +1,6 @@
 #pragma once
 // Light lists made on a backend: keys of samples, unique clusters, the light tree, lights per cluster. Every step gives what
-// the host's gives: cluster::key_at, unique_by_bitmap, explicit_bounds, bvh::build, lights::count_lists.
+// the host's gives: cluster::key_at, unique_by_bitmap, explicit_bounds, lights::build_light_tree, lights::count_lists.
 //
 // Verbs are recorded in this order: `upload`, `find_keys`, `find_unique`, (`find_bounds`,) `build_tree`, `count`; then
 // `finish` reads the sizes back, the one time that the host waits, and `fill` writes lists that fit exactly.
@@ -75,7 +75,7 @@ class DeviceLists {
     StagedBuffer state, pixels, slice_words, tables, lights;
     StagedBuffer keys, bits, ranks, unique_keys, index, places;
     StagedBuffer balls, everywhere, pairs[2], items, nodes, ids;
-    StagedBuffer offsets, cells, list, ordered;
+    StagedBuffer ready, offsets, cells, list, ordered;
 
   private:
     void assign(Verbs& verbs, DeviceListsInput const& in, bool fill);

@@ -1,4 +1,4 @@
-// The kernels of the light tree: their C++ halves. The tree is bvh::build's of the same balls, to the bit.
+// The kernels of the light tree: their C++ halves. The tree is that of lights::build_light_tree, to the bit.
 // [Olsson 2014, Paper II, 3.3]
 
 #include <shaders/light_codes_comp.hpp>
@@ -12,6 +12,7 @@
 #include <gnomon/bvh/items.hpp>
 #include <gnomon/lights/formula/assign.glsl>
 #include <gnomon/lights/light.hpp>
+#include <gnomon/math/bounds.hpp>
 #include <gnomon/math/scalar.hpp>
 
 #include <algorithm>
@@ -66,8 +67,7 @@ void make_light_items(backend::KernelData const& data, std::size_t begin, std::s
         } else if (!is_sound_for_tree(l)) {
             add_one(state.bad);
         } else {
-            balls[i] = {l.center.x, l.center.y, l.center.z,
-                        gn_tree_radius(formula::Vec3<float>(l.center), formula::Float<float>(l.range_m)).v};
+            balls[i] = {l.center.x, l.center.y, l.center.z, l.range_m};
             add_one(state.usable);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 std::int32_t const place = math::ordinal(balls[i][axis] * 0.5F);

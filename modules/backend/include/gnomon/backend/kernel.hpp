@@ -72,7 +72,10 @@ struct KernelData {
     }
 };
 
-/// Does items [begin, end). Ranges run in any order and at the same time; a kernel writes no item of another range.
+/// Does items [begin, end). Ranges run in any order and at the same time; a kernel writes no item of another range, but by
+/// atomic operations (std::atomic_ref) whose order makes no difference.
+///
+/// A shader whose groups of 64 work together has 64 items a group: its C++ half does those groups that begin in the range.
 using KernelFunction = void (*)(KernelData const& data, std::size_t begin, std::size_t end);
 
 /// Plain data, usually a constant of the program. Backends know a kernel by its address: it must outlive them.

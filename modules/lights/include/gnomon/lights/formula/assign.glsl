@@ -41,11 +41,10 @@ GN_FN GN_BOOL gn_is_sound_cone(GN_VEC3 axis, GN_FLOAT cosine, GN_FLOAT sine) {
            sine <= 1.0 && unit_sq >= 0.5;
 }
 
-/// The radius of a light's ball in the tree: wider by twice what the predicate widens it by.
-GN_FN GN_FLOAT gn_tree_radius(GN_VEC3 center, GN_FLOAT radius) {
-    GN_PRECISE GN_FLOAT size = abs(center.x) + abs(center.y) + abs(center.z) + radius;
-    GN_PRECISE GN_FLOAT wide = radius + 3.814697265625e-6 * size;
-    return wide;
+/// Whether a light is culled as a spot; wider ones are balls.
+GN_PLAIN_FN bool gn_is_narrow_spot(GN_IN(GnLight) light) {
+    GN_PRECISE float narrowest = 0.015625f * light.sin_half;
+    return light.kind == 1u && light.cos_half >= narrowest;
 }
 
 /// The predicate: the span of x / depth (of x) that a sound point, spot or directional light may cover of a row.
@@ -55,8 +54,7 @@ GN_FN GN_TYPE(GnSpan) gn_light_span(GN_IN(GnLight) light, GN_IN(GN_TYPE(GnRow)) 
     everything.high = GN_FLOAT(gn_far());
     if (light.kind == 2u) return everything;
     GN_TYPE(GnReadyBall) ball = gn_ready_ball(GN_VEC3(light.center), GN_FLOAT(light.range_m), perspective);
-    GN_PRECISE float narrowest = 0.015625f * light.sin_half;
-    if (light.kind != 1u || light.cos_half < narrowest) return gn_ball_row(ball, row, perspective);
+    if (!gn_is_narrow_spot(light)) return gn_ball_row(ball, row, perspective);
     GN_TYPE(GnReadySpot) spot =
         gn_ready_spot(ball, GN_VEC3(light.axis), GN_FLOAT(light.cos_half), GN_FLOAT(light.sin_half), perspective);
     return gn_spot_row(spot, row, perspective);
