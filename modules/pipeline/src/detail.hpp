@@ -46,8 +46,15 @@ struct DrawList {
     void look_from(math::View const& view, math::dvec3 const& origin_m);
 };
 
+/// Whether surfaces that blend are drawn: those without an alpha mode of BLEND always are.
+enum class Blended : std::uint8_t {
+    as_masked,  ///< Solid where their alpha is at least one half.
+    left_out,
+};
+
 /// Which way of facing is left out; triangles of double-sided materials never are.
-[[nodiscard]] DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull);
+[[nodiscard]] DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull,
+                                  Blended blended = Blended::as_masked);
 
 /// How a material's alpha cuts holes.
 struct AlphaRule {

@@ -71,13 +71,14 @@ AlphaRule alpha_rule(scene::Scene const& scene, scene::Material const& material)
     return rule;
 }
 
-DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull) {
+DrawList make_draws(scene::Scene const& scene, scene::Geometry const& geometry, raster::Cull cull, Blended blended) {
     DrawList list;
     std::vector<std::pair<std::size_t, std::size_t>> tested;  // draw, alpha test: pointers once the list stops moving
     for (scene::Range const& range : geometry.ranges) {
         scene::Material const& material = scene.materials[range.material];
         AlphaRule const rule = alpha_rule(scene, material);
         if (rule.nothing || range.triangle_count == 0) continue;
+        if (blended == Blended::left_out && material.alpha_mode == scene::AlphaMode::blend) continue;
         raster::Draw draw = draw_of(geometry, range.first_triangle, range.triangle_count);
         draw.cull = material.double_sided ? raster::Cull::none : cull;
         bool const follows =

@@ -138,7 +138,8 @@ std::vector<std::uint32_t> draw_ids(Frame& frame, core::ExecutorRef executor) {
     math::ivec2 const size = frame.view.size_px;
     std::vector<std::uint32_t> ids(pixel_count(size));
     std::vector<float> depth(pixel_count(size));
-    DrawList list = make_draws(*frame.scene, *frame.geometry, raster::Cull::none);
+    DrawList list = make_draws(*frame.scene, *frame.geometry, raster::Cull::none,
+                               frame.leaves_out_blended ? Blended::left_out : Blended::as_masked);
     list.look_from(frame.view, frame.geometry->origin_m);
     raster::PassConfig config;
     config.depth = frame.view.depth;
@@ -218,6 +219,7 @@ Result<Frame> make_frame(scene::Scene const& scene, scene::Geometry const& geome
     frame.view = shot.view;
     frame.light = light;
     frame.bounds = geometry.bounds;
+    frame.leaves_out_blended = shot.leaves_out_blended;
     frame.light_position = math::to_float(light.position_m - geometry.origin_m);
     frame.to_light = float_direction(-light.direction);
     state->eye = sample::eye_of(shot.view, geometry.origin_m);

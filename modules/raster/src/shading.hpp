@@ -27,7 +27,7 @@ struct Shading {
 [[nodiscard]] inline math::vec4 blended(backend::Blend blend, math::vec4 const& over, math::vec4 const& under) noexcept {
     if (blend == backend::Blend::replace_and_add) return {over.x, over.y, over.z, over.w + under.w};
     float const rest = 1.0F - over.w;
-    return {over.x + under.x * rest, over.y + under.y * rest, over.z + under.z * rest, under.w};
+    return {over.x + under.x * rest, over.y + under.y * rest, over.z + under.z * rest, over.w + under.w * rest};
 }
 
 /// Fragments of one tile that wait for their colours.

@@ -76,7 +76,7 @@ backend::PassLayer shaded_layer(math::Depth depth) {
 
 math::vec4 over(math::vec4 const& c, math::vec4 const& p) {
     float const rest = 1.0F - c.w;
-    return {c.x + p.x * rest, c.y + p.y * rest, c.z + p.z * rest, p.w};
+    return {c.x + p.x * rest, c.y + p.y * rest, c.z + p.z * rest, c.w + p.w * rest};
 }
 
 struct Expected {

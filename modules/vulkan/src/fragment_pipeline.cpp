@@ -52,7 +52,7 @@ VkPipelineColorBlendAttachmentState blend_state(backend::Blend blend) noexcept {
     state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     if (blend == backend::Blend::replace_and_add) return state;
     state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     return state;
 }
 

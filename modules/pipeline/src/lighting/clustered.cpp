@@ -190,17 +190,24 @@ LightingTechnique technique(std::string_view name, std::string_view summary) noe
 
 }  // namespace
 
-Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
-    SampleDepth const depth_of(on.frame);
-    double deepest = on.frame.view.near_m;
-    for (math::vec3 const& p : on.frame.samples.position) deepest = std::max(deepest, static_cast<double>(depth_of(p)));
-    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
-    double const end = std::max(deepest, on.frame.view.near_m + 1e-3 * (1.0 + std::abs(on.frame.view.near_m)));
-    auto slices = cluster::make_cubical_slices(on.frame.view, tile, end);
+double deepest_sample(Frame const& frame) {
+    SampleDepth const depth_of(frame);
+    double deepest = frame.view.near_m;
+    for (math::vec3 const& p : frame.samples.position) deepest = std::max(deepest, static_cast<double>(depth_of(p)));
+    return deepest;
+}
+
+Result<cluster::Grid> make_cluster_grid(math::View const& view, std::int32_t tile_px, double deepest_m) {
+    double const end = std::max(deepest_m, view.near_m + 1e-3 * (1.0 + std::abs(view.near_m)));
+    auto slices = cluster::make_cubical_slices(view, tile_px, end);
     if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
-    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
+    auto grid = cluster::make_grid(view, math::ivec2(tile_px, tile_px), std::move(slices).value());
     if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
     return std::move(grid).value();
+}
+
+Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
+    return make_cluster_grid(on.frame.view, static_cast<std::int32_t>(on.params.integer("tile")), deepest_sample(on.frame));
 }
 
 Result<lights::ListsReport> find_clustered_lists(LightingRun const& on, std::vector<StageTime>& stages) {

@@ -29,40 +29,22 @@ Held<backend::DrawListId> keep(Verbs& verbs, std::span<backend::Draw const> draw
 Result<ForwardGrid> make_lists(ForwardKind kind, LightingRun const& on, Lighting& l) {
     switch (kind) {
         case ForwardKind::all_lights: return list_all(on.frame, l.prepared.shaded.size());
-        case ForwardKind::tiled: return list_by_tile(on, l, false);
-        case ForwardKind::tiled_prez: return list_by_tile(on, l, true);
-        case ForwardKind::clustered: return list_by_cluster(on, l);
+        case ForwardKind::tiled: return list_by_tile(on, l, static_cast<std::uint32_t>(on.params.integer("tile")), nullptr);
+        case ForwardKind::tiled_prez: {
+            auto const tile = static_cast<std::uint32_t>(on.params.integer("tile"));
+            TileRanges const ranges = ranges_of_samples(on.frame, tile);
+            return list_by_tile(on, l, tile, &ranges);
+        }
+        case ForwardKind::clustered: return list_by_cluster(on, l, static_cast<std::uint32_t>(on.params.integer("tile")), deepest_sample(on.frame));
     }
     return list_all(on.frame, l.prepared.shaded.size());
-}
-
-/// One pass of the fragment kernel.
-struct ForwardPass {
-    backend::DrawListId list;
-    backend::PassLayer layer;
-    ForwardStd constants;
-    backend::FragmentTest test = backend::FragmentTest::nearer;
-    backend::Load color = backend::Load::clear;
-};
-
-void shade(Verbs& verbs, Lighting& l, ForwardPass const& pass) {
-    ForwardState& f = l.forward;
-    std::array const buffers{f.vertices.get(), f.triangles.get(), f.materials.get(), f.texels.get(), f.rays.get(),
-                             l.lights.get(),   f.depths.get(),    f.cells.get(),     f.indices.get()};
-    backend::TargetBinding const ids{f.target.get(), backend::Plane::triangle};
-    backend::FragmentCall const call{.buffers = buffers,
-                                     .targets = {&ids, 1},
-                                     .constants = backend::bytes_of(pass.constants),
-                                     .test = pass.test,
-                                     .color = pass.color};
-    verbs(verbs.device().shade(pass.list, f.target.get(), pass.layer, forward_kernel, call));
 }
 
 /// Shades all surfaces as they come, nearer ones over farther ones. Alpha tests are made first, in a pass of depth.
 void shade_in_order(Verbs& verbs, Lighting& l, Frame const& frame, ForwardStd constants) {
     ForwardState& f = l.forward;
-    ForwardPass pass{f.solid.get(), layer_of(frame), constants};
-    shade(verbs, l, pass);
+    ForwardPass pass{f.solid.get(), f.triangles.get(), layer_of(frame), constants};
+    record_forward(verbs, l, pass);
     if (!f.has_masked) return;
     pass.layer.load = backend::Load::keep;
     verbs(verbs.device().draw(f.masked.get(), f.target.get(), {&pass.layer, 1}));
@@ -70,19 +52,19 @@ void shade_in_order(Verbs& verbs, Lighting& l, Frame const& frame, ForwardStd co
     pass.constants.once = 1;
     pass.test = backend::FragmentTest::visible;
     pass.color = backend::Load::keep;
-    shade(verbs, l, pass);
+    record_forward(verbs, l, pass);
 }
 
 /// Depth and ids first, then each pixel once.
 void shade_visible(Verbs& verbs, Lighting& l, Frame const& frame, ForwardStd constants) {
     ForwardState& f = l.forward;
-    ForwardPass pass{f.all.get(), layer_of(frame), constants, backend::FragmentTest::visible, backend::Load::clear};
+    ForwardPass pass{f.all.get(), f.triangles.get(), layer_of(frame), constants, backend::FragmentTest::visible, backend::Load::clear};
     verbs.device().stage("depth_pass");
     verbs(verbs.device().draw(pass.list, f.target.get(), {&pass.layer, 1}));
     verbs.device().stage("shade");
     pass.layer.load = backend::Load::keep;
     pass.constants.once = 1;
-    shade(verbs, l, pass);
+    record_forward(verbs, l, pass);
 }
 
 LightingOutput gather(Frame const& frame, ForwardGrid const& grid, std::span<math::vec4 const> color) {
@@ -116,10 +98,7 @@ Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
     if (!grid) return std::move(grid).failure();
     std::vector<StageTime> stages{{"assign", watch.lap_ms()}};
     on.device.stage("upload");
-    l.lights.fill<lights::ShadedLight>(verbs, l.prepared.shaded);
-    f.depths.fill<float>(verbs, grid->depth_m);
-    f.cells.fill<lights::Cell>(verbs, grid->cells);
-    f.indices.fill<std::uint32_t>(verbs, grid->indices);
+    stage_lists(verbs, l, *grid);
     on.device.stage("shade");
     bool const prez = kind == ForwardKind::tiled_prez || kind == ForwardKind::clustered;
     if (prez)
@@ -140,6 +119,28 @@ Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
 
 }  // namespace
 
+void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass) {
+    ForwardState& f = l.forward;
+    std::array const buffers{f.vertices.get(), pass.triangles, f.materials.get(), f.texels.get(), f.rays.get(),
+                             l.lights.get(),   f.depths.get(), f.cells.get(),     f.indices.get()};
+    backend::TargetBinding const ids{f.target.get(), backend::Plane::triangle};
+    bool const over = pass.constants.blends != 0;
+    backend::FragmentCall const call{.buffers = buffers,
+                                     .targets = {&ids, 1},
+                                     .constants = backend::bytes_of(pass.constants),
+                                     .test = pass.test,
+                                     .blend = over ? backend::Blend::over : backend::Blend::replace_and_add,
+                                     .color = pass.color};
+    verbs(verbs.device().shade(pass.list, f.target.get(), pass.layer, forward_kernel, call));
+}
+
+void stage_lists(Verbs& verbs, Lighting& l, ForwardGrid const& grid) {
+    l.lights.fill<lights::ShadedLight>(verbs, l.prepared.shaded);
+    l.forward.depths.fill<float>(verbs, grid.depth_m);
+    l.forward.cells.fill<lights::Cell>(verbs, grid.cells);
+    l.forward.indices.fill<std::uint32_t>(verbs, grid.indices);
+}
+
 void ForwardState::fit(Verbs& verbs, Frame const& frame) {
     rays.fill<CameraRays>(verbs, std::array{make_camera_rays(frame.view, frame.geometry->origin_m)});
     if (config.size_px != frame.view.size_px) {
@@ -147,7 +148,7 @@ void ForwardState::fit(Verbs& verbs, Frame const& frame) {
         config = {.size_px = frame.view.size_px, .triangle_ids = true, .color = true};
         target = Held(verbs.device(), verbs(verbs.device().make_target(config)));
     }
-    if (surfaces_of == frame.state->surfaces) return;
+    if (surfaces_of == frame.state->surfaces && leaves_out_blended == frame.leaves_out_blended) return;
     surfaces_of = nullptr;
     vertices.fill<VertexStd>(verbs, make_vertices(*frame.geometry));
     triangles.fill<TriangleStd>(verbs, make_triangles(*frame.geometry));
@@ -157,13 +158,15 @@ void ForwardState::fit(Verbs& verbs, Frame const& frame) {
     all = {};
     solid = {};
     masked = {};
-    draws = make_draws(*frame.scene, *frame.geometry, raster::Cull::none);
+    draws = make_draws(*frame.scene, *frame.geometry, raster::Cull::none,
+                       frame.leaves_out_blended ? Blended::left_out : Blended::as_masked);
     std::vector<backend::Draw> without, with;
     for (backend::Draw const& draw : draws.draws) (draw.alpha_test == nullptr ? without : with).push_back(draw);
     has_masked = !with.empty();
     all = keep(verbs, draws.draws);
     solid = keep(verbs, without);
     masked = keep(verbs, with);
+    leaves_out_blended = frame.leaves_out_blended;
     if (verbs.good()) surfaces_of = frame.state->surfaces;
 }
 

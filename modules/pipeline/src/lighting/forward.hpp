@@ -2,6 +2,7 @@
 // What forward techniques keep on the backend, and their lists of lights by tile or cluster.
 
 #include <gnomon/backend/fragment.hpp>
+#include <gnomon/cull/depth_range.hpp>
 #include <gnomon/lights.hpp>
 
 #include "../detail.hpp"
@@ -29,12 +30,17 @@ struct ForwardState {
     StagedBuffer indices;
     DrawList draws;
     bool has_masked = false;
+    bool leaves_out_blended = false;
     Held<backend::DrawListId> all;     ///< With alpha tests where materials have them.
     Held<backend::DrawListId> solid;   ///< Those without.
     Held<backend::DrawListId> masked;  ///< Those with.
     backend::TargetConfig config;
     Held<backend::TargetId> target;
     std::vector<math::vec4> color;
+    // Of `shade_transparent`:
+    StagedBuffer sorted_triangles;
+    Held<backend::TargetId> front;  ///< The nearest transparent triangles.
+    math::ivec2 front_px{0, 0};
 
     /// Stages geometry and textures, unless they are there, the view's rays, and the target.
     void fit(Verbs& verbs, Frame const& frame);
@@ -49,14 +55,41 @@ struct ForwardGrid {
     std::uint64_t left_out = 0;  ///< Lights that are none, or had no room.
 };
 
+/// One pass of the fragment kernel.
+struct ForwardPass {
+    backend::DrawListId list;
+    backend::BufferId triangles;
+    backend::PassLayer layer;
+    ForwardStd constants;
+    backend::FragmentTest test = backend::FragmentTest::nearer;
+    backend::Load color = backend::Load::clear;
+};
+void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass);
+
+/// Stages lights and lists.
+void stage_lists(Verbs& verbs, Lighting& l, ForwardGrid const& grid);
+
 /// The view and area of a frame's passes.
 [[nodiscard]] backend::PassLayer layer_of(Frame const& frame) noexcept;
 
 /// All lights in one list.
 [[nodiscard]] ForwardGrid list_all(Frame const& frame, std::size_t lights);
-/// Lights by tile; with `by_depth`, without those before or behind all samples of the tile.
-[[nodiscard]] Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, bool by_depth);
-/// Lights by cluster, of all clusters: a fragment need not be a sample.
-[[nodiscard]] Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l);
+/// The nearest and farthest depth of each tile, row by row.
+struct TileRanges {
+    std::uint32_t tile = 32;  ///< Pixels.
+    std::uint32_t columns = 0;
+    std::vector<cull::DepthRange> ranges;
+
+    TileRanges(math::ivec2 const& size_px, std::uint32_t tile_px);
+    [[nodiscard]] cull::DepthRange& of(std::uint32_t x, std::uint32_t y) noexcept {
+        return ranges[std::size_t{y / tile} * columns + x / tile];
+    }
+};
+/// Of a frame's samples.
+[[nodiscard]] TileRanges ranges_of_samples(Frame const& frame, std::uint32_t tile_px);
+/// Lights by tile; with `ranges`, without those before or behind all of the tile's.
+[[nodiscard]] Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, std::uint32_t tile_px, TileRanges const* ranges);
+/// Lights by cluster, of all clusters up to a depth: a fragment need not be a sample.
+[[nodiscard]] Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l, std::uint32_t tile_px, double deepest_m);
 
 }  // namespace gnomon::pipeline

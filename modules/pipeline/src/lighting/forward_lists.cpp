@@ -32,19 +32,6 @@ ForwardGrid list_by(cluster::Grid const& grid, std::uint32_t tile, Lighting& l) 
     return made;
 }
 
-/// Each tile's nearest and farthest sample.
-std::vector<cull::DepthRange> ranges_of_tiles(Frame const& frame, ForwardStd const& grid) {
-    std::vector<cull::DepthRange> ranges(std::size_t{grid.columns} * grid.rows);
-    SampleDepth const depth_of(frame);
-    auto const width = static_cast<std::uint32_t>(frame.view.size_px.x);
-    for (std::size_t i = 0; i < frame.samples.size(); ++i) {
-        std::uint32_t const pixel = frame.samples.pixel[i];
-        std::size_t const tile = std::size_t{pixel / width / grid.tile} * grid.columns + pixel % width / grid.tile;
-        ranges[tile].add(depth_of(frame.samples.position[i]));
-    }
-    return ranges;
-}
-
 /// Takes the lights out that lie before or behind all of a tile's range.
 void cull_tiles(std::span<cull::DepthRange const> ranges, std::span<lights::Light const> lights, ForwardGrid& grid) {
     std::uint32_t kept = 0;
@@ -64,6 +51,22 @@ void cull_tiles(std::span<cull::DepthRange const> ranges, std::span<lights::Ligh
 
 }  // namespace
 
+TileRanges::TileRanges(math::ivec2 const& size_px, std::uint32_t tile_px)
+    : tile(tile_px),
+      columns((static_cast<std::uint32_t>(size_px.x) + tile_px - 1) / tile_px),
+      ranges(std::size_t{columns} * ((static_cast<std::uint32_t>(size_px.y) + tile_px - 1) / tile_px)) {}
+
+TileRanges ranges_of_samples(Frame const& frame, std::uint32_t tile_px) {
+    TileRanges made(frame.view.size_px, tile_px);
+    SampleDepth const depth_of(frame);
+    auto const width = static_cast<std::uint32_t>(frame.view.size_px.x);
+    for (std::size_t i = 0; i < frame.samples.size(); ++i) {
+        std::uint32_t const pixel = frame.samples.pixel[i];
+        made.of(pixel % width, pixel / width).add(depth_of(frame.samples.position[i]));
+    }
+    return made;
+}
+
 ForwardGrid list_all(Frame const& frame, std::size_t lights) {
     ForwardGrid made;
     made.constants.tile = static_cast<std::uint32_t>(std::max(frame.view.size_px.x, frame.view.size_px.y));
@@ -73,22 +76,22 @@ ForwardGrid list_all(Frame const& frame, std::size_t lights) {
     return made;
 }
 
-Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, bool by_depth) {
-    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
+Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, std::uint32_t tile_px, TileRanges const* ranges) {
+    auto const tile = static_cast<std::int32_t>(tile_px);
     std::array<float, 2> const planes{static_cast<float>(on.frame.view.near_m), std::numeric_limits<float>::infinity()};
     auto slices = cluster::make_slices(std::span<float const>(planes));
     if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
     auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
     if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
-    ForwardGrid made = list_by(*grid, static_cast<std::uint32_t>(tile), l);
-    if (by_depth) cull_tiles(ranges_of_tiles(on.frame, made.constants), l.prepared.culled, made);
+    ForwardGrid made = list_by(*grid, tile_px, l);
+    if (ranges != nullptr) cull_tiles(ranges->ranges, l.prepared.culled, made);
     return made;
 }
 
-Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l) {
-    auto grid = make_cluster_grid(on);
+Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l, std::uint32_t tile_px, double deepest_m) {
+    auto grid = make_cluster_grid(on.frame.view, static_cast<std::int32_t>(tile_px), deepest_m);
     if (!grid) return std::move(grid).failure();
-    return list_by(*grid, static_cast<std::uint32_t>(on.params.integer("tile")), l);
+    return list_by(*grid, tile_px, l);
 }
 
 }  // namespace gnomon::pipeline

@@ -109,6 +109,10 @@ void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math:
 
 /// A grid of cubical clusters as deep as the samples go.
 [[nodiscard]] Result<cluster::Grid> make_cluster_grid(LightingRun const& on);
+/// The same up to a depth of the caller's.
+[[nodiscard]] Result<cluster::Grid> make_cluster_grid(math::View const& view, std::int32_t tile_px, double deepest_m);
+/// In front of the eye; the near plane's where there are no samples.
+[[nodiscard]] double deepest_sample(Frame const& frame);
 
 /// The lists of `clustered-deferred` and of `tiled-deferred`, as `shade_lists` takes them.
 ///

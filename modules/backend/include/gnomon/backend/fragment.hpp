@@ -57,7 +57,7 @@ enum class FragmentTest : std::uint8_t {
 /// What becomes of a fragment's colour c over the pixel's p.
 enum class Blend : std::uint8_t {
     replace_and_add,  ///< rgb: c. Alpha: c + p, which counts what was shaded, overdraw too.
-    over,             ///< rgb: c + (1 - c.a) p, c's rgb times its alpha already. Alpha: p.
+    over,             ///< All four: c + (1 - c.a) p, c's rgb times its alpha already. Alpha becomes the coverage.
 };
 
 /// Arguments of one pass of a fragment kernel.

@@ -59,6 +59,7 @@ struct Frame {
     std::vector<std::uint8_t> reached;  ///< 0: beyond the light's range or cone, so not lit whatever stands between.
     std::uint64_t bad_triangles = 0;    ///< Left out: a vertex is not finite, or an index out of range.
     std::uint64_t triangles_drawn = 0;  ///< Of the camera pass.
+    bool leaves_out_blended = false;    ///< BLEND surfaces have no samples; otherwise they count as masked at one half.
     std::shared_ptr<FrameState const> state;
     std::vector<StageTime> stages;  ///< camera_pass, samples, truth_build, truth_trace.
 };
@@ -77,6 +78,7 @@ struct Shot {
     /// A frame of the same scene and geometry, neither changed since: its hierarchy serves again. May be null.
     Frame const* before = nullptr;
     SampleRule samples = SampleRule::exact;
+    bool leaves_out_blended = false;  ///< On: BLEND surfaces have no samples; see `shade_transparent`.
 };
 
 /// Draws the camera pass, places the view samples and traces the truth.

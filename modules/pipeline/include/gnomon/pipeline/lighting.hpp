@@ -54,6 +54,29 @@ struct LightingTechnique {
 /// As for a shadow technique.
 [[nodiscard]] Result<Params> make_params(LightingTechnique const& technique, std::span<Setting const> settings = {});
 
+struct TransparencyConfig {
+    std::int32_t tile_px = 32;
+    bool clusters = false;  ///< Lights by cluster; else by tile, behind nothing opaque of the tile.
+    bool nearest = true;    ///< By tile: and not before the tile's nearest transparent surface, for a pass of depth more.
+};
+
+/// An image with its transparent surfaces, one entry per pixel.
+struct TransparentOutput {
+    std::vector<math::vec3> image;            ///< Linear; the background gives nothing.
+    std::vector<std::uint32_t> computations;  ///< Lights evaluated for transparent surfaces.
+    std::vector<StageTime> stages;
+    std::vector<Count> counts;  ///< `lighting_computations`, `light_pairs`, `lists`, `transparent_triangles`.
+};
+
+/// Shades the frame's BLEND surfaces, triangles back to front, under lights found as for the opaque ones, over the image
+/// that any technique gave.
+///
+/// source:  [Olsson 2014, Paper I, 4 and 6.3]
+/// expects: a frame that leaves blended surfaces out; `radiance` of its samples. `on.params` is not read.
+/// returns: where triangles cut each other, the farther centre is behind: as sorting by triangle does.
+[[nodiscard]] Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<math::vec3 const> radiance,
+                                                          TransparencyConfig const& config = {});
+
 /// The exposure that suits an image: its brighter samples become white paper.
 [[nodiscard]] float pick_exposure(std::span<math::vec3 const> radiance);
 
