@@ -55,8 +55,8 @@ double deepest_of(Frame const& frame, SortedDraw const& sorted) {
 }
 
 /// Draws the nearest transparent triangles and moves each tile's near end to the nearest of them.
-void find_nearest(Verbs& verbs, LightingRun const& on, ForwardState& f, backend::DrawListId list, SortedDraw const& sorted,
-                  TileRanges& ranges) {
+void find_nearest(Verbs& verbs, LightingRun const& on, backend::DrawListId list, SortedDraw const& sorted, TileRanges& ranges) {
+    ForwardState& f = on.workspace.state().lighting.forward;
     math::ivec2 const size = on.frame.view.size_px;
     if (f.front_px != size) {
         f.front = {};
@@ -157,7 +157,7 @@ Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<mat
     Held const list(on.device, verbs(on.device.keep({&sorted.draw, 1})));
     l.forward.sorted_triangles.fill<TriangleStd>(verbs, sorted.triangles);
     TileRanges ranges = behind_nothing(on.frame, static_cast<std::uint32_t>(config.tile_px));
-    if (config.nearest && !config.clusters) find_nearest(verbs, on, l.forward, list.get(), sorted, ranges);
+    if (config.nearest && !config.clusters) find_nearest(verbs, on, list.get(), sorted, ranges);
     double const nearest_ms = watch.lap_ms();
     auto const grid = config.clusters ? list_by_cluster(on, l, static_cast<std::uint32_t>(config.tile_px), deepest_of(on.frame, sorted))
                                       : list_by_tile(on, l, static_cast<std::uint32_t>(config.tile_px), &ranges);
