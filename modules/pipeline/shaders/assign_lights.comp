@@ -33,6 +33,8 @@ layout(push_constant) uniform Constants {
     uint rows;
     uint slices;
     uint perspective;
+    uint cells;
+    uint packed;  // 0: keys are dense numbers
 } c;
 
 const uint level_shift = 27u;
@@ -108,11 +110,14 @@ void take(uint first, uint light) {
 
 void assign_cluster(uint cluster, uint lane) {
     uint key = unique_keys[cluster];
-    uint column = gn_key_column(key);
+    uint number = key / c.cells;  // of tile and slice
+    uint slice = c.packed != 0u ? gn_key_slice(key) : number % c.slices;
+    uint column = c.packed != 0u ? gn_key_column(key) : number / c.slices % c.columns;
+    uint j = c.packed != 0u ? gn_key_row(key) : number / c.slices / c.columns;
     float left = tables[column];
     float right = tables[c.columns + column];
     bool perspective = c.perspective != 0u;
-    GnRow row = GnRow(border(gn_key_row(key)), border(gn_key_row(key) + 1u), plane(gn_key_slice(key)), plane(gn_key_slice(key) + 1u));
+    GnRow row = GnRow(border(j), border(j + 1u), plane(slice), plane(slice + 1u));
     GnBox box = gn_cluster_box(row, left, right, perspective);
     uint first = c.fill != 0u ? offsets[cluster] : 0u;
     barrier();

@@ -25,6 +25,7 @@ layout(push_constant) uniform Constants {
     float eye_x, eye_y, eye_z;
     float forward_x, forward_y, forward_z;
     uint normal_n;
+    uint packed;  // 0: keys are dense numbers
 } c;
 
 void main() {
@@ -34,6 +35,10 @@ void main() {
     float depth = gn_along(offset, vec3(c.forward_x, c.forward_y, c.forward_z));
     uint cell = 0u;
     if (c.normal_n != 0u) cell = gn_normal_cell(vec3(normals[3u * i], normals[3u * i + 1u], normals[3u * i + 2u]), c.normal_n);
-    keys[i] = gn_pack_key(gn_column_of(c.grid, pixels[i] % c.width), gn_row_of(c.grid, pixels[i] / c.width),
-                          gn_slice_at(c.grid.depth, 0u, depth), cell);
+    uint column = gn_column_of(c.grid, pixels[i] % c.width);
+    uint row = gn_row_of(c.grid, pixels[i] / c.width);
+    uint slice = gn_slice_at(c.grid.depth, 0u, depth);
+    uint cells = c.normal_n != 0u ? 6u * c.normal_n * c.normal_n : 1u;
+    uint number = ((row * c.grid.columns + column) * c.grid.depth.slices + slice) * cells + cell;
+    keys[i] = c.packed != 0u ? gn_pack_key(column, row, slice, cell) : number;
 }

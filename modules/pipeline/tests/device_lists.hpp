@@ -11,6 +11,8 @@
 #include <gnomon/pipeline.hpp>
 #include <gnomon/scene.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -21,7 +23,7 @@
 
 namespace gnomon::test {
 
-/// Six scenes, of which some bring lights.
+/// Six scenes, of which some bring lights. 4 x 4 parts a face of normals do not fit a key of 32 bits.
 struct DeviceScene {
     char const* name;
     char const* camera;  ///< Empty: the first.
@@ -29,7 +31,7 @@ struct DeviceScene {
     std::uint32_t normal_n = 0;
 };
 inline constexpr DeviceScene device_scenes[] = {{"atrium", "still", "300", 0}, {"robots", "", "many", 3}, {"necropolis", "", "", 0},
-                                                {"city", "", "", 1},           {"forest", "", "", 0},     {"houses", "", "", 2}};
+                                                {"city", "", "", 1},           {"forest", "", "", 0},     {"houses", "", "", 4}};
 
 /// A frame and lights: the scene's own, and as many scattered about it as are asked for.
 class DeviceFrame {
@@ -133,20 +135,24 @@ struct HostLists {
     void find_clusters(pipeline::DeviceListsInput const& in) {
         pipeline::SampleDepth const depth(in.frame);
         auto const width = static_cast<std::uint32_t>(in.frame.view.size_px.x);
+        auto const layout = cluster::make_key_layout<std::uint64_t>(in.grid.view(), in.layout.counts.normal_n).value();
+        auto const narrow = [&](std::uint64_t key) { return in.layout.key(cluster::unpack_key(key)); };
+        std::vector<std::uint64_t> wide;
         std::vector<math::vec3> places;
         formula::Vec3<float> const right(math::to_float(in.frame.view.right)), down(math::to_float(-in.frame.view.up)), ahead(depth.forward());
         for (std::size_t i = 0; i < in.frame.samples.size(); ++i) {
             math::vec3 const position = in.frame.samples.position[i];
             math::uvec2 const pixel(in.frame.samples.pixel[i] % width, in.frame.samples.pixel[i] / width);
-            keys.push_back(cluster::key_at(in.grid, in.layout, pixel, depth(position), in.frame.samples.normal[i]));
+            wide.push_back(cluster::key_at(in.grid, layout, pixel, depth(position), in.frame.samples.normal[i]));
+            keys.push_back(narrow(wide.back()));
             formula::Vec3<float> const offset(position - depth.eye());
             places.push_back(math::vec3(gn_along(offset, right).v, gn_along(offset, down).v, gn_along(offset, ahead).v));
         }
-        unique.resize(keys.size());
+        std::vector<std::uint64_t> found(keys.size());
         index.resize(keys.size());
-        cluster::UniqueWorkspace<std::uint32_t> work;
-        auto const stats = cluster::unique_by_bitmap(in.layout, std::span<std::uint32_t const>(keys), {unique, index}, work);
-        unique.resize(stats.clusters);
+        cluster::UniqueWorkspace<std::uint64_t> work;
+        auto const stats = cluster::unique_by_local_sort(layout, std::span<std::uint64_t const>(wide), {found, index}, work);
+        for (std::size_t i = 0; i < stats.clusters; ++i) unique.push_back(narrow(found[i]));
         bounds.resize(stats.clusters);
         cluster::ReduceWorkspace reduce;
         (void)cluster::explicit_bounds(index, places, bounds, reduce);
@@ -162,7 +168,7 @@ struct HostLists {
         std::vector<std::uint32_t> indices(report.written);
         lights::fill_lists(work, std::span<std::uint32_t>(indices));
         for (std::uint32_t const key : unique) {
-            cluster::KeyParts const p = cluster::unpack_key(key);
+            cluster::KeyParts const p = in.layout.parts(key);
             lights::Cell const cell = dense[view.index(p.column, p.row, p.slice)];
             cells.push_back({static_cast<std::uint32_t>(list.size()), cell.count});
             list.insert(list.end(), indices.begin() + cell.offset, indices.begin() + cell.offset + cell.count);
@@ -203,8 +209,9 @@ inline void check_device_lists(DeviceFrame const& from, backend::Backend& device
     // Samples beyond the last plane are in the last slice.
     auto const grid = cluster::make_grid(frame.view, math::ivec2(tile_px, tile_px), cluster::make_cubical_slices(frame.view, tile_px, deepest).value());
     REQUIRE(grid.has_value());
-    auto const layout = cluster::make_key_layout<std::uint32_t>(grid->view(), normal_n);
+    auto const layout = pipeline::make_device_layout(grid->view(), normal_n);
     REQUIRE(layout.has_value());
+    CHECK(layout->packed == (normal_n < 4));
     pipeline::PreparedLights prepared;
     pipeline::prepare_lights(frame, from.lights, prepared);
     pipeline::Verbs verbs(device);
@@ -236,6 +243,34 @@ inline void check_device_lists(DeviceFrame const& from, backend::Backend& device
     CHECK(same_bits(read_back<std::uint32_t>(device, lists.ordered.get(), host.list.size()), host.list));
     CHECK(lists.sizes().state.bad == host.report.lights.bad);
     CHECK((lists.sizes().state.masked == 0 && lists.sizes().state.background == 0 && lists.sizes().state.invalid == 0));
+}
+
+/// Scans and sorts of several sizes, tiles of tiles of tiles among them, against loops.
+inline void check_scan_and_sort(backend::Backend& device, std::span<std::uint32_t const> sizes) {
+    pipeline::Verbs verbs(device);
+    pipeline::DeviceScan scan;
+    std::uint32_t state = 1;
+    auto const bits = [&state] { return (state = state * 1664525U + 1013904223U) >> 8U; };
+    for (std::uint32_t const size : sizes) {
+        std::vector<std::uint32_t> numbers(size), sums(size);
+        std::uint64_t sum = 0;
+        for (std::uint32_t i = 0; i < size; ++i) {
+            numbers[i] = bits() % (size > 100'000 ? 20'000U : 7U);  // large ones go beyond 32 bits
+            sums[i] = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, 0xFFFFFFFFU));
+            sum += numbers[i];
+        }
+        std::vector<std::array<std::uint32_t, 2>> pairs(size);
+        for (std::uint32_t i = 0; i < size; ++i) pairs[i] = {bits() * (size % 2 == 0 ? 64U : 0U) >> 1U, i};
+        pipeline::StagedBuffer values, from, spare;
+        values.fill<std::uint32_t>(verbs, numbers);
+        scan.scan(verbs, values.get(), size);
+        CHECK(same_bits(read_back<std::uint32_t>(device, values.get(), size), sums));
+        from.fill<std::array<std::uint32_t, 2>>(verbs, pairs);
+        backend::BufferId const sorted = scan.sort(verbs, from.get(), spare.fit(verbs, std::size_t{size} * 8), {size, 31});
+        std::stable_sort(pairs.begin(), pairs.end(), [](auto const& a, auto const& b) { return a[0] < b[0]; });
+        CHECK(same_bits(read_back<std::array<std::uint32_t, 2>>(device, sorted, size), pairs));
+        REQUIRE(verbs.good());
+    }
 }
 
 }  // namespace gnomon::test

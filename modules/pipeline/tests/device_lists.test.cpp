@@ -3,6 +3,7 @@
 #include "device_lists.hpp"
 
 #include <gnomon/check/check.hpp>
+#include <gnomon/core/executor_threads.hpp>
 #include <gnomon/raster/cpu_backend.hpp>
 
 #include <string>
@@ -20,8 +21,8 @@ TEST_CASE("keys, clusters, bounds, light tree and light lists of the kernels are
 }
 
 TEST_CASE("kernels of light lists take orthographic views, no lights, one light and 1,500 that are everywhere", "[pipeline][lighting]") {
-    core::SerialExecutor serial;
-    raster::CpuBackend cpu(serial);
+    core::ThreadExecutor threads(3);
+    raster::CpuBackend cpu(threads);
     test::DeviceFrame frame(test::device_scenes[0], {80, 45}, 200, true);
     test::check_device_lists(frame, cpu, 16, 0);
     frame.lights.resize(1);
@@ -30,4 +31,11 @@ TEST_CASE("kernels of light lists take orthographic views, no lights, one light 
     test::check_device_lists(frame, cpu, 16, 0);
     frame.lights.assign(1500, pipeline::bulb(math::dvec3(0.0)));
     test::check_device_lists(frame, cpu, 32, 0);
+}
+
+TEST_CASE("scans and sorts by kernels are a loop's, for any size and threads", "[pipeline][lighting]") {
+    core::ThreadExecutor threads(3);
+    raster::CpuBackend cpu(threads);
+    std::uint32_t const sizes[] = {1, 2, 63, 64, 1023, 1024, 1025, 20'000, 300'001, 1'100'000};
+    test::check_scan_and_sort(cpu, sizes);
 }

@@ -38,3 +38,14 @@ TEST_CASE("keys, clusters, bounds, light tree and light lists of a device are th
           "[vulkan][lighting][.full]") {
     check_scenes_on_device({640, 360}, 5000, 16);
 }
+
+TEST_CASE("scans and sorts by kernels are a loop's on the device, for any size", "[vulkan][lighting]") {
+    auto const device = vulkan::test::Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::test::TestHost host(*device);
+    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
+    REQUIRE(gpu.has_value());
+    std::uint32_t const sizes[] = {1, 2, 63, 64, 1023, 1024, 1025, 20'000, 1'100'000};
+    test::check_scan_and_sort(**gpu, sizes);
+    CHECK(device->take_messages() == "");
+}

@@ -75,8 +75,8 @@ Result<LightingOutput> run_clustered_device(LightingRun const& on) {
     Stopwatch watch;
     auto const grid = make_cluster_grid(on);
     if (!grid) return grid.failure();
-    auto const layout = cluster::make_key_layout<std::uint32_t>(grid->view());
-    if (!layout) return core::Failure{Error::bad_value, layout.failure().message};
+    auto const layout = make_device_layout(grid->view());
+    if (!layout) return layout.failure();
     LightingOutput output;
     output.stages = {{"grid", watch.lap_ms()}};
     Workspace::State& state = on.workspace.state();

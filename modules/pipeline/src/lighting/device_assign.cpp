@@ -4,6 +4,7 @@
 #include <shaders/order_lists_comp.hpp>
 #include <shaders/ready_lights_comp.hpp>
 
+#include "device_layout.hpp"
 #include "device_tree.hpp"
 
 #include <gnomon/cluster/key.hpp>
@@ -72,6 +73,7 @@ struct TableView {
 /// The buffers of assign_lights.
 struct Assigning {
     AssignLightsStd const& c;
+    DeviceLayout layout;
     DeviceStateStd const& state;
     TableView tables;
     TreeBuffers tree;
@@ -83,7 +85,7 @@ struct Assigning {
     /// Calls `found(light)` for the lights of a cluster, in no order that means anything.
     template <class F>
     void each_light(std::size_t cluster, F&& found) const {
-        cluster::KeyParts const at = cluster::unpack_key(unique[cluster]);
+        cluster::KeyParts const at = layout.parts(unique[cluster]);
         formula::Float<float> const left(tables.left(at.column));
         formula::Float<float> const right(tables.right(at.column));
         bool const perspective = c.perspective != 0;
@@ -130,6 +132,7 @@ void assign_device_lights(backend::KernelData const& data, std::size_t begin, st
     auto const c = data.constant<AssignLightsStd>();
     DeviceStateStd const& state = data.buffer<DeviceStateStd const>(0)[0];
     Assigning const work{c,
+                         {{c.columns, c.rows, c.slices, c.cells, 0}, c.packed != 0},
                          state,
                          {data.buffer<float const>(2).data(), c},
                          {data.buffer<float const>(4), data.buffer<float const>(5), state},

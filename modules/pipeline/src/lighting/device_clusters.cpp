@@ -10,6 +10,7 @@
 
 #include "../detail.hpp"
 #include "device_kernels.hpp"
+#include "device_layout.hpp"
 
 #include <gnomon/cluster/formula/grid.glsl>
 #include <gnomon/cluster/key.hpp>
@@ -30,7 +31,7 @@ using Key = std::uint32_t;
 
 formula::Vec3<float> vec3_of(float const (&v)[3]) noexcept { return {v[0], v[1], v[2]}; }
 
-cluster::KeyLayout<Key> layout_of(ClusterLayoutStd const& c) noexcept { return {c.columns, c.rows, c.slices, c.cells, 0}; }
+DeviceLayout layout_of(ClusterLayoutStd const& c) noexcept { return {{c.columns, c.rows, c.slices, c.cells, 0}, c.packed != 0}; }
 
 void find_device_keys(backend::KernelData const& data, std::size_t begin, std::size_t end) {
     auto const c = data.constant<ClusterKeysStd>();
@@ -39,12 +40,14 @@ void find_device_keys(backend::KernelData const& data, std::size_t begin, std::s
     auto const normals = data.buffer<math::vec3 const>(2);
     formula::Words const words{data.buffer<std::uint32_t const>(3).data()};
     auto const keys = data.buffer<Key>(4);
+    std::uint32_t const cells = c.normal_n != 0 ? 6 * c.normal_n * c.normal_n : 1;
+    DeviceLayout const layout{{c.grid.columns, c.grid.rows, c.grid.depth.slices, cells, c.normal_n}, c.packed != 0};
     using Uint = formula::Uint<float>;
     for (std::size_t i = begin; i < std::min<std::size_t>(end, c.count); ++i) {
         formula::Vec3<float> const offset = formula::Vec3<float>(samples[i].position) - vec3_of(c.eye);
         std::uint32_t const cell = c.normal_n != 0 ? cluster::normal_cell(normals[i], c.normal_n) : 0;
-        keys[i] = formula::gn_pack_key(gn_column_of(c.grid, Uint(pixels[i] % c.width)), gn_row_of(c.grid, Uint(pixels[i] / c.width)),
-                                       gn_slice_at(c.grid.depth, words, gn_along(offset, vec3_of(c.forward))), Uint(cell)).v;
+        keys[i] = layout.key({gn_column_of(c.grid, Uint(pixels[i] % c.width)).v, gn_row_of(c.grid, Uint(pixels[i] / c.width)).v,
+                              gn_slice_at(c.grid.depth, words, gn_along(offset, vec3_of(c.forward))).v, cell});
     }
 }
 
@@ -61,13 +64,12 @@ void mark_device_clusters(backend::KernelData const& data, std::size_t begin, st
     DeviceStateStd& state = data.buffer<DeviceStateStd>(2)[0];
     auto const layout = layout_of(c);
     for (std::size_t i = begin; i < std::min<std::size_t>(end, c.count); ++i) {
-        cluster::KeyParts const parts = cluster::unpack_key(keys[i]);
-        if (!layout.holds(parts)) {
+        if (!layout.holds(keys[i])) {
             std::atomic_ref<std::uint32_t>(keys[i] == cluster::no_key<Key> ? state.background : state.invalid).fetch_add(1, std::memory_order_relaxed);
             continue;
         }
         if (i != begin && keys[i - 1] == keys[i]) continue;
-        auto const number = static_cast<std::uint32_t>(layout.number(parts));
+        std::uint32_t const number = layout.number(keys[i]);
         std::atomic_ref<std::uint32_t>(bits[number >> 5U]).fetch_or(1U << (number & 31U), std::memory_order_relaxed);
     }
 }
@@ -88,10 +90,9 @@ void link_device_clusters(backend::KernelData const& data, std::size_t begin, st
     auto const index = data.buffer<std::uint32_t>(3);
     auto const layout = layout_of(c);
     for (std::size_t i = begin; i < std::min<std::size_t>(end, c.count); ++i) {
-        cluster::KeyParts const parts = cluster::unpack_key(keys[i]);
         index[i] = cluster::no_cluster;
-        if (!layout.holds(parts)) continue;
-        auto const number = static_cast<std::uint32_t>(layout.number(parts));
+        if (!layout.holds(keys[i])) continue;
+        std::uint32_t const number = layout.number(keys[i]);
         std::uint32_t const below = bits[number >> 5U] & ((1U << (number & 31U)) - 1U);
         index[i] = ranks[number >> 5U] + static_cast<std::uint32_t>(std::popcount(below));
     }
@@ -107,7 +108,7 @@ void store_device_clusters(backend::KernelData const& data, std::size_t begin, s
     for (std::size_t i = begin; i < std::min<std::size_t>(end, c.count); ++i) {
         std::uint32_t at = ranks[i];
         for (std::uint32_t left = bits[i]; left != 0; left &= left - 1U)
-            unique[at++] = layout.key(i * 32 + static_cast<std::uint32_t>(std::countr_zero(left)));
+            unique[at++] = layout.key(static_cast<std::uint32_t>(i * 32) + static_cast<std::uint32_t>(std::countr_zero(left)));
     }
 }
 

@@ -55,18 +55,20 @@ struct ClusterKeysStd {
     float eye[3];
     float forward[3];
     std::uint32_t normal_n;
+    std::uint32_t packed;  ///< 0: keys are their dense numbers.
 };
-static_assert(sizeof(ClusterKeysStd) == 104);
+static_assert(sizeof(ClusterKeysStd) == 108);
 
 struct ClearWordsStd {
     std::uint32_t count;
     std::uint32_t value;
 };
 
-/// cluster::KeyLayout<uint32_t>; `count` items.
+/// A DeviceLayout; `count` items.
 struct ClusterLayoutStd {
     std::uint32_t count;
     std::uint32_t columns, rows, slices, cells;
+    std::uint32_t packed;
 };
 
 struct BoundClustersStd {
@@ -147,6 +149,8 @@ struct AssignLightsStd {
     std::uint32_t groups;
     std::uint32_t columns, rows, slices;
     std::uint32_t perspective;
+    std::uint32_t cells;
+    std::uint32_t packed;
 };
 
 struct OrderListsStd {

@@ -30,7 +30,8 @@ void to_floats(math::vec3 const& v, float (&out)[3]) noexcept {
 }
 
 ClusterLayoutStd layout_std(DeviceListsInput const& in, std::size_t count) noexcept {
-    return {count_of(count), in.layout.columns, in.layout.rows, in.layout.slices, in.layout.cells};
+    auto const& counts = in.layout.counts;
+    return {count_of(count), counts.columns, counts.rows, counts.slices, counts.cells, in.layout.packed ? 1U : 0U};
 }
 
 /// Runs a kernel with its constants.
@@ -86,9 +87,9 @@ std::uint32_t DeviceLists::capacity(DeviceListsInput const& in) const noexcept {
 }
 
 Result<core::Done> DeviceLists::upload(Verbs& verbs, DeviceListsInput const& in) {
-    if (in.layout.domain() >= 0xFFFFFFFFU || in.lights.size() > 1U << 30U)
-        return core::Failure{Error::too_large, std::to_string(in.layout.domain()) + " cluster keys and " + std::to_string(in.lights.size()) +
-                                                   " lights; a device takes fewer than 2^32 - 1 and 2^30: larger tiles"};
+    GNOMON_EXPECT(in.layout.domain() < 0xFFFFFFFFU);
+    if (in.lights.size() > 1U << 30U)
+        return core::Failure{Error::too_large, std::to_string(in.lights.size()) + " lights; a device takes 2^30"};
     if (pixels_of_ != in.frame.state) {
         pixels_of_ = nullptr;
         pixels.fill<std::uint32_t>(verbs, in.frame.samples.pixel);
@@ -106,11 +107,12 @@ Result<core::Done> DeviceLists::upload(Verbs& verbs, DeviceListsInput const& in)
 void DeviceLists::find_keys(Verbs& verbs, DeviceListsInput const& in) {
     std::size_t const n = in.frame.samples.size();
     SampleDepth const depth(in.frame);
-    ClusterKeysStd c{in.grid.table(), count_of(n), static_cast<std::uint32_t>(in.frame.view.size_px.x), {}, {}, in.layout.normal_n};
+    ClusterKeysStd c{in.grid.table(), count_of(n), static_cast<std::uint32_t>(in.frame.view.size_px.x), {}, {},
+                     in.layout.counts.normal_n, in.layout.packed ? 1U : 0U};
     to_floats(depth.eye(), c.eye);
     to_floats(depth.forward(), c.forward);
     run_kernel(verbs, cluster_keys_kernel, n,
-               std::array{in.samples, pixels.get(), in.layout.normal_n != 0 ? in.normals : in.samples, slice_words.get(), keys.fit(verbs, n * 4)}, c);
+               std::array{in.samples, pixels.get(), in.layout.counts.normal_n != 0 ? in.normals : in.samples, slice_words.get(), keys.fit(verbs, n * 4)}, c);
 }
 
 void DeviceLists::find_unique(Verbs& verbs, DeviceListsInput const& in) {
@@ -158,9 +160,9 @@ void DeviceLists::build_tree(Verbs& verbs, DeviceListsInput const& in) {
 }
 
 void DeviceLists::assign(Verbs& verbs, DeviceListsInput const& in, bool fill) {
-    AssignLightsStd const c{fill ? 1U : 0U,  std::min(most_groups, std::max(1U, capacity(in))),
-                            in.layout.columns, in.layout.rows,
-                            in.layout.slices,  in.grid.table().perspective};
+    auto const& counts = in.layout.counts;
+    AssignLightsStd const c{fill ? 1U : 0U, std::min(most_groups, std::max(1U, capacity(in))), counts.columns, counts.rows, counts.slices,
+                            in.grid.table().perspective, counts.cells, in.layout.packed ? 1U : 0U};
     run_kernel(verbs, assign_lights_kernel, std::size_t{c.groups} * backend::kernel_local_size,
                std::array{state.get(), unique_keys.get(), tables.get(), ready.get(), items.get(), nodes.get(), ids.get(), everywhere.get(),
                           offsets.get(), cells.get(), list.get()},

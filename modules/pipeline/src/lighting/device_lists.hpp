@@ -12,6 +12,7 @@
 
 #include "../staged.hpp"
 #include "device_kernels.hpp"
+#include "device_layout.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -41,7 +42,7 @@ class DeviceScan {
 struct DeviceListsInput {
     Frame const& frame;
     cluster::Grid const& grid;
-    cluster::KeyLayout<std::uint32_t> layout;
+    DeviceLayout layout;  ///< Of the grid.
     std::span<lights::Light const> lights;  ///< Culling space; no boxes, which count as bad.
     backend::BufferId samples;
     backend::BufferId normals;              ///< Read if the layout has normals.
@@ -56,7 +57,7 @@ struct DeviceListsSizes {
 /// Buffers, kept from frame to frame.
 class DeviceLists {
   public:
-    /// returns: `too_large` where 32 bits do not number the keys.
+    /// returns: `too_large` above 2^30 lights.
     [[nodiscard]] Result<core::Done> upload(Verbs& verbs, DeviceListsInput const& in);
     void find_keys(Verbs& verbs, DeviceListsInput const& in);
     void find_unique(Verbs& verbs, DeviceListsInput const& in);
