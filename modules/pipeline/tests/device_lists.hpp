@@ -29,24 +29,40 @@ struct DeviceScene {
     char const* camera;  ///< Empty: the first.
     char const* lights;
     std::uint32_t normal_n = 0;
+    double offset_m = 0.0;  ///< All of it moved along x, y and z.
 };
+inline constexpr DeviceScene far_scene{"atrium", "still", "300", 0, 1e7};
 inline constexpr DeviceScene device_scenes[] = {{"atrium", "still", "300", 0}, {"robots", "", "many", 3}, {"necropolis", "", "", 0},
                                                 {"city", "", "", 1},           {"forest", "", "", 0},     {"houses", "", "", 4}};
+
+enum class DeviceView { plain, orthographic, off_centre };
 
 /// A frame and lights: the scene's own, and as many scattered about it as are asked for.
 class DeviceFrame {
   public:
-    DeviceFrame(DeviceScene const& from, math::ivec2 size_px, std::size_t scattered, bool orthographic = false) {
+    DeviceFrame(DeviceScene const& from, math::ivec2 size_px, std::size_t scattered, DeviceView kind = DeviceView::plain) {
         auto made_scene = scene::make_procedural({.name = from.name, .lights = from.lights});
         INFO((made_scene ? std::string() : made_scene.failure().message));
         REQUIRE(made_scene.has_value());
         scene_ = std::move(made_scene).value();
         geometry_ = scene::flatten(scene_);
+        math::dvec3 const offset(from.offset_m);
+        geometry_.origin_m = geometry_.origin_m + offset;
+        for (scene::Light& light : scene_.lights) light.position_m = light.position_m + offset;
         scene::Camera const* camera = &scene_.cameras.front();
         for (scene::Camera const& c : scene_.cameras)
             if (c.name == from.camera) camera = &c;
         math::View view = scene::make_view(*camera, size_px).value();
-        if (orthographic) {
+        view.eye_m = view.eye_m + offset;
+        if (kind == DeviceView::off_centre) {
+            double const width = view.window.right - view.window.left;
+            view.window.left += 0.31 * width;  // and of a jittered pixel
+            view.window.right += 0.31 * width;
+            view.window.top -= 0.37 * width / size_px.x;
+            view.window.bottom -= 0.37 * width / size_px.x;
+            view.depth = math::Depth::forward;
+        }
+        if (kind == DeviceView::orthographic) {
             view.lens = math::Lens::orthographic;
             view.window = {-10.0, 10.0, -6.0, 6.0};
             view.near_m = -2.0;
@@ -67,7 +83,7 @@ class DeviceFrame {
     std::vector<pipeline::Light> lights;
 
   private:
-    /// Points and spots beside samples; some of them huge, some on each other, one a sun, some no lights at all.
+    /// Points and spots beside samples, or around and behind the eye; some huge, some on each other, some suns, some no lights.
     void scatter(std::size_t count) {
         std::uint64_t state = 1;
         auto const unit = [&state] {
@@ -90,6 +106,7 @@ class DeviceFrame {
                 light.outer_cone_rad = static_cast<float>(0.05 + 2.0 * unit());
                 light.inner_cone_rad = light.outer_cone_rad * 0.5F;
             }
+            if (i % 23 == 5) light.position_m = frame.view.eye_m + math::dvec3(x, y, z) * (i % 2 == 0 ? range : 2.0 * range);
             if (i % 50 == 7) light.position_m = lights.back().position_m;
             if (i % 101 == 50) light.range_m = std::numeric_limits<float>::quiet_NaN();
             if (i % 89 == 11) light.kind = pipeline::LightKind::directional;

@@ -20,10 +20,17 @@ TEST_CASE("keys, clusters, bounds, light tree and light lists of the kernels are
     }
 }
 
+TEST_CASE("kernels of light lists take windows off the centre, images that are no multiple of the tile, and scenes 1e7 m away", "[pipeline][lighting]") {
+    core::SerialExecutor serial;
+    raster::CpuBackend cpu(serial);
+    test::check_device_lists({test::device_scenes[0], {97, 55}, 300, test::DeviceView::off_centre}, cpu, 13, 3);
+    test::check_device_lists({test::far_scene, {97, 55}, 300}, cpu, 16, 0);
+}
+
 TEST_CASE("kernels of light lists take orthographic views, no lights, one light and 1,500 that are everywhere", "[pipeline][lighting]") {
     core::ThreadExecutor threads(3);
     raster::CpuBackend cpu(threads);
-    test::DeviceFrame frame(test::device_scenes[0], {80, 45}, 200, true);
+    test::DeviceFrame frame(test::device_scenes[0], {80, 45}, 200, test::DeviceView::orthographic);
     test::check_device_lists(frame, cpu, 16, 0);
     frame.lights.resize(1);
     test::check_device_lists(frame, cpu, 16, 0);

@@ -20,7 +20,9 @@ void check_scenes_on_device(math::ivec2 size_px, std::size_t scattered, std::int
         test::DeviceFrame const frame(scene, size_px, scattered);
         test::check_device_lists(frame, **gpu, tile_px, scene.normal_n);
     }
-    test::DeviceFrame frame(test::device_scenes[0], size_px, scattered, true);
+    test::check_device_lists({test::device_scenes[0], size_px + math::ivec2(1), scattered, test::DeviceView::off_centre}, **gpu, tile_px, 3);
+    test::check_device_lists({test::far_scene, size_px, scattered}, **gpu, tile_px, 0);
+    test::DeviceFrame frame(test::device_scenes[0], size_px, scattered, test::DeviceView::orthographic);
     test::check_device_lists(frame, **gpu, tile_px, 0);
     frame.lights.clear();
     test::check_device_lists(frame, **gpu, tile_px, 0);
