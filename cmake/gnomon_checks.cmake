@@ -141,8 +141,13 @@ macro(_gnomon_formula_checks)
       string(MAKE_C_IDENTIFIER "${formula}" id)
       set(base "${PROJECT_BINARY_DIR}/formulas/${id}")
       _gnomon_formula_shader("${base}.comp" "${formula}")
+      file(READ "${CMAKE_CURRENT_SOURCE_DIR}/include/${formula}" formula_text)
+      set(formula_stage compute)
+      if(formula_text MATCHES "early_fragment_tests")
+        set(formula_stage fragment)
+      endif()
       add_custom_command(OUTPUT "${base}.spv"
-        COMMAND "${GNOMON_glslc_PROGRAM}" --target-env=vulkan1.3 -O0 -Werror ${formula_includes} -MD -MF "${base}.spv.d"
+        COMMAND "${GNOMON_glslc_PROGRAM}" -fshader-stage=${formula_stage} --target-env=vulkan1.3 -O0 -Werror ${formula_includes} -MD -MF "${base}.spv.d"
           -o "${base}.spv" "${base}.comp"
         DEPENDS "${base}.comp" DEPFILE "${base}.spv.d" COMMENT "${formula} as GLSL" VERBATIM)
       list(APPEND formula_spirv "${base}.spv")
