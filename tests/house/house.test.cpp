@@ -54,6 +54,10 @@ TEST_CASE("the include check finds each forbidden include", "[house]") {
     CHECK(mentions(complaint("modules/low/include/gnomon/low/a.hpp", "#include <gnomon/nothing/x.hpp>\n"), "no module"));
     CHECK(mentions(complaint("modules/low/include/gnomon/low/a.hpp", "#include <gnomon/adapted/x.hpp>\n"), "does not declare"));
     CHECK(mentions(complaint("modules/low/include/gnomon/low/a.hpp", "#include \"../../x.hpp\"\n"), "climbs out"));
+    CHECK(mentions(complaint("modules/low/src/part/a.cpp", "#include \"../../x.hpp\"\n"), "climbs out"));
+    CHECK(mentions(complaint("modules/low/src/part/a.cpp", "#include \"../part/../../x.hpp\"\n"), "climbs out"));
+    CHECK(mentions(complaint("modules/low/src/a.cpp", "#include \"../x.hpp\"\n"), "climbs out"));
+    CHECK_FALSE(mentions(complaint("modules/low/src/part/a.cpp", "#include \"../x.hpp\"\n"), "climbs out"));
     CHECK(mentions(complaint("modules/adapted/include/gnomon/adapted.hpp", "#include <gnomon/adapted/tbb.hpp>\n"), "adapter"));
     CHECK(mentions(complaint("modules/low/tests/a.test.cpp", "#include <gnomon/high/b.hpp>\n"), "TEST_DEPENDS"));
     CHECK(complaint("modules/low/tests/a.test.cpp", "#include <gnomon/check/check.hpp>\n").empty());

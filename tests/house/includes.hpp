@@ -83,6 +83,7 @@ public:
         bool const adapter = modules_.at(name_).adapters.contains(own);
         for (auto const& include : includes_of(text)) {
             if (tests) check_in_tests(include); // tests may share an oracle by its path
+            else if (stays_in_sources(parts, include.header)) continue; // a folder of src/ may use what all of src/ shares
             else if (include.header.find("..") != std::string::npos) report(include, "climbs out of its folder");
             else if (!adapter) check_in_module(include);
             if (adapter || !tests) note_use(include);
@@ -103,6 +104,13 @@ public:
     }
 
 private:
+    /// Whether a header is one of the module's own src/, above the folder of the file that asks.
+    static bool stays_in_sources(std::vector<std::string> const& parts, std::string const& header) {
+        std::size_t ups = 0;
+        while (header.compare(3 * ups, 3, "../") == 0) ++ups;
+        bool const climbs_again = header.find("..", 3 * ups) != std::string::npos;
+        return parts[2] == "src" && ups > 0 && ups + 4 <= parts.size() && !climbs_again;
+    }
     void report(Include const& include, std::string const& what) {
         findings_.push_back({path_, include.line, "<" + include.header + "> " + what});
     }
