@@ -130,7 +130,7 @@ std::vector<std::string> const& paper_two() {
     static std::vector<std::string> const names =
         known({"deferred-stencil", "tiled-deferred", "tiled-deferred-en", "tiled-forward-prez", "clustered-deferred",
                "clustered-deferred-pt", "clustered-deferred-eb", "clustered-deferred-en", "clustered-deferred-nk3",
-               "clustered-deferred-nk3-eb-en", "clustered-forward"});
+               "clustered-deferred-nk3-eb-en", "clustered-deferred-device", "clustered-forward"});
     return names;
 }
 

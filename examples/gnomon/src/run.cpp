@@ -91,7 +91,7 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     bool const shadows = !lights_many(plan);
     bar.show(1, steps, shadows && options.truth ? "tracing the exact shadows" : "drawing");
     auto frame = pipeline::make_frame(stage->loaded.scene, stage->geometry,
-                                      pipeline::Shot{view->value, light->for_frame(), shadows && options.truth}, executor);
+                                      pipeline::Shot{view->value, light->for_frame(), shadows && options.truth, nullptr, light->rule()}, executor);
     if (!frame) return exit_for(frame.failure());
     StepsOfRuns steps_of_runs{&bar, &plan};
     pipeline::CompareConfig config;

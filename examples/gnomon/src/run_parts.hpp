@@ -39,6 +39,8 @@ struct Lighting {
     [[nodiscard]] std::string const& text() const noexcept { return one ? one->text : many.text; }
     /// What a frame is made with: a lighting technique does not look at it.
     [[nodiscard]] scene::Light for_frame() const;
+    /// Where a frame's samples lie: for lighting where a fragment shader finds them too, so that images can be compared.
+    [[nodiscard]] pipeline::SampleRule rule() const noexcept { return one ? pipeline::SampleRule::exact : pipeline::SampleRule::formula; }
     /// Moves what is the scene's to the stage's pose.
     void move_to(Stage const& stage);
 };

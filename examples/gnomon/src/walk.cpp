@@ -44,7 +44,7 @@ Outcome<pipeline::Comparison> Walk::step(int frame, bool images) {
         light_.move_to(stage_);
     }
     pipeline::Shot const shot{journey_.views[static_cast<std::size_t>(frame)], light_.for_frame(),
-                              options_.truth && !report_.many_lights, frame_ && !moved ? &*frame_ : nullptr};
+                              options_.truth && !report_.many_lights, frame_ && !moved ? &*frame_ : nullptr, light_.rule()};
     auto next = pipeline::make_frame(stage_.loaded.scene, stage_.geometry, shot, executor_);
     if (!next) return exit_for(next.failure());
     frame_ = *std::move(next);

@@ -62,7 +62,8 @@ TEST_CASE("many lights are compared by image and by work; with shadows they do n
     std::vector<std::string> const scene{"atrium", "--lights", "300", "--size", "96x54", "--repeats", "1"};
     std::vector<std::string> words{"compare"};
     words.insert(words.end(), scene.begin(), scene.end());
-    words.insert(words.end(), {"--techniques", "deferred-stencil,tiled-deferred", "--param", "tiled-deferred.tile=16,32", "--out", "out"});
+    words.insert(words.end(), {"--techniques", "deferred-stencil,tiled-deferred,tiled-forward-prez", "--param",
+                               "tiled-deferred.tile=16,32", "--out", "out"});
     Ended const ended = gnomon_in(folder.path(), words);
     CAPTURE(ended.err, ended.out);
     REQUIRE(ended.exit_code == 0);
@@ -71,7 +72,7 @@ TEST_CASE("many lights are compared by image and by work; with shadows they do n
     CAPTURE(errors.empty() ? std::string() : errors.front());
     CHECK(errors.empty());
     json const& runs = results["runs"];
-    REQUIRE(runs.size() == 3);
+    REQUIRE(runs.size() == 4);
     auto const computations = [&](std::size_t run) { return runs[run]["counts"]["lighting_computations"].get<std::uint64_t>(); };
     CHECK(computations(0) > 0);
     CHECK(computations(0) < computations(1));
