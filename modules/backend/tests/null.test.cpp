@@ -78,6 +78,10 @@ TEST_CASE("what does not fit its resource is refused with its value", "[backend]
     view.layer = 1;
     CHECK(rig.device.count_samples(std::span(boxes).first(25), rig.target, view, rig.buffer, 0));
     CHECK(refuses(rig.device.count_samples(boxes, rig.target, view, rig.buffer, 0), Error::bad_argument, "26"));
+    view.subpixel = math::ivec2(0, 128);
+    CHECK(refuses(rig.device.draw(rig.list, rig.target, {&view, 1}), Error::bad_argument, "subpixels"));
+    view.subpixel = math::ivec2(-127, 127);
+    CHECK(rig.device.draw(rig.list, rig.target, {&view, 1}));
     view.viewport = backend::Rect{0, 0, 20'000, 10};
     CHECK(refuses(rig.device.draw(rig.list, rig.target, {&view, 1}), Error::too_large, "20000"));
     CHECK(refuses(rig.device.make_target({.size_px = math::ivec2(20'000, 1)}), Error::too_large, "20000"));

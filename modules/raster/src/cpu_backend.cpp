@@ -91,6 +91,7 @@ struct Target {
         layer.config.range = pass.range;
         layer.config.load = pass.load;
         layer.config.viewport = pass.viewport;
+        layer.config.subpixel = pass.subpixel;
         layer.config.scissor = backend::area_of(pass, config.size_px);
         return layer;
     }

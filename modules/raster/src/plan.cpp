@@ -59,6 +59,8 @@ bool begin_layer(LayerPlan& plan, Layer const& layer) {
     Rect const viewport = config.viewport.value_or(whole);
     if (viewport.width <= 0 || viewport.height <= 0) return false;
     plan.viewport = make_viewport(viewport, config.range == DepthRange::clip);
+    plan.viewport.offset_x += config.subpixel.x;
+    plan.viewport.offset_y += config.subpixel.y;
     return true;
 }
 

@@ -18,6 +18,7 @@ class ShadeRecorder {
         math::ivec2 const size = target.config().size_px;
         bundle_.viewport = layer.viewport.value_or(backend::Rect{0, 0, size.x, size.y});
         bundle_.area = backend::area_of(layer, size);
+        bundle_.subpixel = layer.subpixel;
         bundle_.depth = layer.depth;
         bundle_.range = layer.range;
         bundle_.count = 1;

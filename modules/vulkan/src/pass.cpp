@@ -127,7 +127,7 @@ class PassRecorder {
         push.matrix_views = chunk.view_count;
         push.bias_constant = reversed ? -bias_.constant : bias_.constant;
         push.bias_slope = reversed ? -bias_.slope : bias_.slope;
-        detail::set_viewport(push, bundle.viewport);
+        detail::set_viewport(push, bundle.viewport, bundle.subpixel);
         gpu_.call.CmdPushConstants(commands_, passes_.layout(), detail::push_stages, 0, sizeof push, &push);
         bool const has_bias = bias_.constant != 0.0F || bias_.slope != 0.0F;
         gpu_.call.CmdSetDepthBiasEnable(commands_, has_bias ? VK_TRUE : VK_FALSE);

@@ -12,13 +12,14 @@ Bundle bundle_of(backend::PassLayer const& layer, math::ivec2 const& size_px) {
     Bundle bundle;
     bundle.viewport = layer.viewport.value_or(backend::Rect{0, 0, size_px.x, size_px.y});
     bundle.area = backend::area_of(layer, size_px);
+    bundle.subpixel = layer.subpixel;
     bundle.depth = layer.depth;
     bundle.range = layer.range;
     return bundle;
 }
 
 bool is_alike(Bundle const& a, Bundle const& b) noexcept {
-    return a.viewport == b.viewport && a.area == b.area && a.depth == b.depth && a.range == b.range;
+    return a.viewport == b.viewport && a.subpixel == b.subpixel && a.area == b.area && a.depth == b.depth && a.range == b.range;
 }
 
 bool has_layer(Chunk const& chunk, Bundle const& bundle, std::uint32_t layer) noexcept {

@@ -16,6 +16,7 @@ namespace gnomon::vulkan::detail {
 struct Bundle {
     backend::Rect viewport;
     backend::Rect area;
+    math::ivec2 subpixel{0, 0};
     math::Depth depth = math::Depth::reversed;
     backend::DepthRange range = backend::DepthRange::clip;
     std::uint32_t first_view = 0;

@@ -125,8 +125,8 @@ void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint3
 }
 
 void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle) {
-    VkViewport const viewport{static_cast<float>(bundle.viewport.x),
-                              static_cast<float>(bundle.viewport.y),
+    VkViewport const viewport{static_cast<float>(bundle.viewport.x) + static_cast<float>(bundle.subpixel.x) / 256.0F,
+                              static_cast<float>(bundle.viewport.y) + static_cast<float>(bundle.subpixel.y) / 256.0F,
                               static_cast<float>(bundle.viewport.width),
                               static_cast<float>(bundle.viewport.height),
                               0.0F,

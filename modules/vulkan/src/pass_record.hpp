@@ -44,9 +44,9 @@ void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint3
 void set_area(Gpu const& gpu, VkCommandBuffer commands, Bundle const& bundle);
 
 /// Where a fragment shader finds its pixel in clip space.
-inline void set_viewport(PassPush& push, backend::Rect const& viewport) noexcept {
-    push.viewport_px[0] = static_cast<float>(viewport.x);
-    push.viewport_px[1] = static_cast<float>(viewport.y);
+inline void set_viewport(PassPush& push, backend::Rect const& viewport, math::ivec2 const& subpixel = {0, 0}) noexcept {
+    push.viewport_px[0] = static_cast<float>(viewport.x) + static_cast<float>(subpixel.x) / 256.0F;
+    push.viewport_px[1] = static_cast<float>(viewport.y) + static_cast<float>(subpixel.y) / 256.0F;
     push.viewport_size_px[0] = static_cast<float>(viewport.width);
     push.viewport_size_px[1] = static_cast<float>(viewport.height);
 }

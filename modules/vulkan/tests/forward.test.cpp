@@ -52,6 +52,7 @@ struct PaintedTree {
 struct Painted {
     std::vector<std::vector<math::vec3>> opaque;
     std::vector<math::vec3> glass;
+    std::vector<std::vector<math::vec3>> smooth;
 
     Painted(PaintedTree const& tree, pipeline::Frame const& frame, backend::Backend& device) {
         core::SerialExecutor serial;
@@ -68,6 +69,12 @@ struct Painted {
                 INFO((blended ? std::string() : blended.failure().message));
                 REQUIRE(blended.has_value());
                 glass = std::move(blended->image);
+                for (bool const edges_only : {false, true}) {
+                    auto four = pipeline::shade_antialiased(on, {16, edges_only});
+                    INFO((four ? std::string() : four.failure().message));
+                    REQUIRE(four.has_value());
+                    smooth.push_back(std::move(four->image));
+                }
             }
             opaque.push_back(std::move(output->radiance));
         }
@@ -109,6 +116,11 @@ TEST_CASE("forward shading gives the CPU's image on a device, through textures, 
                 differing(ours.opaque[2], theirs.opaque[2]), differing(ours.opaque[3], theirs.opaque[3]), ours.opaque[0].size(), glass,
                 ours.glass.size());
     CHECK(glass * 1000 <= ours.glass.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+        std::size_t const smooth = differing(ours.smooth[i], theirs.smooth[i]);
+        std::printf("four samples: %zu of %zu pixels otherwise than on the CPU\n", smooth, ours.smooth[i].size());
+        CHECK(smooth * 1000 <= ours.smooth[i].size());
+    }
     std::size_t lit = 0;
     for (math::vec3 const& c : ours.glass) lit += c != math::vec3(0.0F) ? 1U : 0U;
     CHECK(lit > ours.opaque[0].size());  // glass before the background too

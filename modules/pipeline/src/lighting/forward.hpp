@@ -41,6 +41,9 @@ struct ForwardState {
     StagedBuffer sorted_triangles;
     Held<backend::TargetId> front;  ///< The nearest transparent triangles.
     math::ivec2 front_px{0, 0};
+    // Of `shade_antialiased`:
+    Held<backend::TargetId> samples;  ///< Ids; an array layer for each sample.
+    math::ivec2 samples_px{0, 0};
 
     /// Stages geometry and textures, unless they are there, the view's rays, and the target.
     void fit(Verbs& verbs, Frame const& frame);

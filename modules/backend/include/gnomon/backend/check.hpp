@@ -110,6 +110,9 @@ namespace detail {
         return detail::refuse(
             Error::bad_argument, verb,
             "layer " + std::to_string(layer.layer) + " of a target of " + std::to_string(target.layers));
+    if (std::max({layer.subpixel.x, layer.subpixel.y, -layer.subpixel.x, -layer.subpixel.y}) > 127)
+        return detail::refuse(Error::bad_argument, verb,
+                              "an image moved by " + detail::text(layer.subpixel) + " subpixels; -127 to 127 may be");
     if (!layer.viewport) return Done{};
     Rect const& v = *layer.viewport;
     if (v.width > limits.target_px || v.height > limits.target_px || v.x > limits.target_px || v.y > limits.target_px ||

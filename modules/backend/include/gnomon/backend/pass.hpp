@@ -69,6 +69,9 @@ struct PassLayer {
     std::uint64_t groups = ~std::uint64_t{0};  ///< Takes the draws that share a bit with it: `Draw::groups`.
     std::uint32_t layer = 0;                   ///< Of the target's array.
     std::optional<Rect> viewport{};  ///< Where clip space [-1, 1] lands; may stick out. Default: the whole layer.
+    /// `draw` and `shade` move the image right and down by so many 1/256 pixels, each from -127 to 127: pixels then show
+    /// what is at another place than their centres, as samples of antialiasing are.
+    math::ivec2 subpixel{0, 0};
     std::optional<Rect> scissor{};   ///< Cuts the viewport: the strip that a cache redraws. Default: all of it.
     math::Depth depth = math::Depth::reversed;
     DepthRange range = DepthRange::clip;

@@ -77,6 +77,29 @@ struct TransparentOutput {
 [[nodiscard]] Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<math::vec3 const> radiance,
                                                           TransparencyConfig const& config = {});
 
+struct AntialiasConfig {
+    std::int32_t tile_px = 32;
+    /// Off: each triangle that a pixel's samples show is shaded once, at the pixel's centre, as multisampled forward
+    /// shading does. On: where the four samples show one triangle, once; else each sample at its own place, as deferred
+    /// shading can that looks at its samples.
+    bool edges_only = false;
+};
+
+/// An image of four samples a pixel, one entry per pixel.
+struct AntialiasedOutput {
+    std::vector<math::vec3> image;  ///< Linear, the mean of the samples; the background gives nothing.
+    std::vector<StageTime> stages;
+    std::vector<Count> counts;  ///< `lighting_computations`, `light_pairs`, `lists`.
+};
+
+/// Draws the frame's view with four samples a pixel, at Vulkan's standard positions, and shades it under the lights of tiles.
+///
+/// Coverage and depth are each sample's own: four array layers, drawn in one pass where the device can. No hardware
+/// multisampling, so that every backend gives the same samples.
+///
+/// source:  [Olsson 2014, Paper I, 2.1 and 3.1]
+[[nodiscard]] Result<AntialiasedOutput> shade_antialiased(LightingRun const& on, AntialiasConfig const& config = {});
+
 /// The exposure that suits an image: its brighter samples become white paper.
 [[nodiscard]] float pick_exposure(std::span<math::vec3 const> radiance);
 

@@ -37,6 +37,7 @@ struct PassConfig {
     Kernel kernel = Kernel::automatic;
     std::optional<Rect>
         viewport{};  ///< Where clip space [-1, 1] lands; the whole target by default. May stick out of it.
+    math::ivec2 subpixel{0, 0};  ///< Moves the image right and down by 1/256 pixels: `backend::PassLayer::subpixel`.
     std::optional<Rect> scissor{};  ///< The only pixels cleared and drawn; the whole target by default.
     DepthPyramid* pyramid = nullptr;  ///< If given, is that of the whole target when the pass ends: see `build_pyramid`.
 };
