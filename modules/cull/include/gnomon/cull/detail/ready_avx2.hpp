@@ -100,7 +100,8 @@ GNOMON_ROWS_INLINE void find_slices(RowGrid const& g, Ready8& r) noexcept {
     F8 const any = crossing > all(0);
     I8 const first_if = greatest(missed - one, all(0)), last_if = least(missed + crossing - one, last);
     I8 const only = before - one;
-    r.slices.first = {_mm256_blendv_epi8(only.v, first_if.v, _mm256_castps_si256(any.v))};
+    // A lane before the first plane, which reaches nothing, reads a plane like the others.
+    r.slices.first = greatest({_mm256_blendv_epi8(only.v, first_if.v, _mm256_castps_si256(any.v))}, all(0));
     r.slices.last = {_mm256_blendv_epi8(only.v, last_if.v, _mm256_castps_si256(any.v))};
     F8 const inside = and_not(before > all(0), only > last);
     r.reaches = any | inside;
