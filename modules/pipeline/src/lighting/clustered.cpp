@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace gnomon::pipeline {
@@ -190,10 +192,21 @@ LightingTechnique technique(std::string_view name, std::string_view summary) noe
 
 }  // namespace
 
-double deepest_sample(Frame const& frame) {
+double deepest_sample(Frame const& frame, core::ExecutorRef executor) {
     SampleDepth const depth_of(frame);
+    std::span<math::vec3 const> const positions(frame.samples.position);
+    std::vector<float> deepest_of((positions.size() + sample_grain - 1) / sample_grain, -std::numeric_limits<float>::infinity());
+    executor.parallel_for(deepest_of.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t part = begin; part < end; ++part) {
+            std::size_t const first = part * sample_grain;
+            float deepest = deepest_of[part];
+            for (math::vec3 const& p : positions.subspan(first, std::min(sample_grain, positions.size() - first)))
+                deepest = std::max(deepest, depth_of(p));
+            deepest_of[part] = deepest;
+        }
+    });
     double deepest = frame.view.near_m;
-    for (math::vec3 const& p : frame.samples.position) deepest = std::max(deepest, static_cast<double>(depth_of(p)));
+    for (float const d : deepest_of) deepest = std::max(deepest, static_cast<double>(d));
     return deepest;
 }
 
@@ -207,7 +220,7 @@ Result<cluster::Grid> make_cluster_grid(math::View const& view, std::int32_t til
 }
 
 Result<cluster::Grid> make_cluster_grid(LightingRun const& on) {
-    return make_cluster_grid(on.frame.view, static_cast<std::int32_t>(on.params.integer("tile")), deepest_sample(on.frame));
+    return make_cluster_grid(on.frame.view, static_cast<std::int32_t>(on.params.integer("tile")), deepest_sample(on.frame, on.executor));
 }
 
 Result<lights::ListsReport> find_clustered_lists(LightingRun const& on, std::vector<StageTime>& stages) {

@@ -35,7 +35,7 @@ Result<ForwardGrid> make_lists(ForwardKind kind, LightingRun const& on, Lighting
             TileRanges const ranges = ranges_of_samples(on.frame, tile);
             return list_by_tile(on, l, tile, &ranges);
         }
-        case ForwardKind::clustered: return list_by_cluster(on, l, static_cast<std::uint32_t>(on.params.integer("tile")), deepest_sample(on.frame));
+        case ForwardKind::clustered: return list_by_cluster(on, l, static_cast<std::uint32_t>(on.params.integer("tile")), deepest_sample(on.frame, on.executor));
     }
     return list_all(on.frame, l.prepared.shaded.size());
 }

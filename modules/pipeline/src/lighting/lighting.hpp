@@ -112,7 +112,7 @@ void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math:
 /// The same up to a depth of the caller's.
 [[nodiscard]] Result<cluster::Grid> make_cluster_grid(math::View const& view, std::int32_t tile_px, double deepest_m);
 /// In front of the eye; the near plane's where there are no samples.
-[[nodiscard]] double deepest_sample(Frame const& frame);
+[[nodiscard]] double deepest_sample(Frame const& frame, core::ExecutorRef executor);
 
 /// The lists of `clustered-deferred` and of `tiled-deferred`, as `shade_lists` takes them.
 ///

@@ -9,8 +9,10 @@
 #include <gnomon/cull/normal_cone.hpp>
 #include <gnomon/cull/rows.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace gnomon::pipeline {
@@ -33,19 +35,30 @@ Result<cluster::Grid> make_tile_grid(LightingRun const& on) {
     return std::move(grid).value();
 }
 
-/// Each sample's tile, and each tile's nearest and farthest sample.
+/// The samples of a row of tiles: they stand in the order of their pixels.
+std::pair<std::size_t, std::size_t> samples_between(std::span<std::uint32_t const> pixels, std::uint64_t first_pixel, std::uint64_t end_pixel) {
+    auto const begin = std::lower_bound(pixels.begin(), pixels.end(), first_pixel);
+    auto const end = std::lower_bound(begin, pixels.end(), end_pixel);
+    return {static_cast<std::size_t>(begin - pixels.begin()), static_cast<std::size_t>(end - pixels.begin())};
+}
+
+/// Each sample's tile, and each tile's nearest and farthest sample. Rows of tiles share none.
 void find_tiles(LightingRun const& on, cluster::Grid const& grid, Lighting& l) {
     SampleDepth const depth_of(on.frame);
     auto const width = static_cast<std::uint32_t>(on.frame.view.size_px.x);
-    l.list_of_sample.resize(on.frame.samples.size());
+    std::span<std::uint32_t const> const pixels(on.frame.samples.pixel);
+    std::uint64_t const row_pixels = std::uint64_t{width} * static_cast<std::uint64_t>(on.params.integer("tile"));
+    l.list_of_sample.resize(pixels.size());
     l.depth_ranges.assign(grid.clusters(), {});
-    for (std::size_t i = 0; i < l.list_of_sample.size(); ++i) {
-        std::uint32_t const pixel = on.frame.samples.pixel[i];
-        float const depth = depth_of(on.frame.samples.position[i]);
-        std::uint32_t const tile = cluster::cluster_at(grid, math::uvec2(pixel % width, pixel / width), depth);
-        l.list_of_sample[i] = tile;
-        l.depth_ranges[tile].add(depth);
-    }
+    on.executor.parallel_for(grid.view().rows(), 1, [&](std::size_t first_row, std::size_t end_row) {
+        auto const [begin, end] = samples_between(pixels, first_row * row_pixels, end_row * row_pixels);
+        for (std::size_t i = begin; i < end; ++i) {
+            float const depth = depth_of(on.frame.samples.position[i]);
+            std::uint32_t const tile = cluster::cluster_at(grid, math::uvec2(pixels[i] % width, pixels[i] / width), depth);
+            l.list_of_sample[i] = tile;
+            l.depth_ranges[tile].add(depth);
+        }
+    });
 }
 
 /// The box of a tile between its nearest and its farthest sample.

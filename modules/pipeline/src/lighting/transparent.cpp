@@ -46,9 +46,9 @@ struct SortedDraw {
 };
 
 /// The farthest that a transparent surface may be, or an opaque one.
-double deepest_of(Frame const& frame, SortedDraw const& sorted) {
+double deepest_of(Frame const& frame, SortedDraw const& sorted, core::ExecutorRef executor) {
     SampleDepth const depth_of(frame);
-    double deepest = deepest_sample(frame);
+    double deepest = deepest_sample(frame, executor);
     for (std::uint32_t const index : sorted.indices)
         deepest = std::max(deepest, static_cast<double>(depth_of(frame.geometry->positions[index])));
     return deepest;
@@ -159,7 +159,7 @@ Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<mat
     TileRanges ranges = behind_nothing(on.frame, static_cast<std::uint32_t>(config.tile_px));
     if (config.nearest && !config.clusters) find_nearest(verbs, on, list.get(), sorted, ranges);
     double const nearest_ms = watch.lap_ms();
-    auto const grid = config.clusters ? list_by_cluster(on, l, static_cast<std::uint32_t>(config.tile_px), deepest_of(on.frame, sorted))
+    auto const grid = config.clusters ? list_by_cluster(on, l, static_cast<std::uint32_t>(config.tile_px), deepest_of(on.frame, sorted, on.executor))
                                       : list_by_tile(on, l, static_cast<std::uint32_t>(config.tile_px), &ranges);
     if (!grid) return grid.failure();
     double const assign_ms = watch.lap_ms();
