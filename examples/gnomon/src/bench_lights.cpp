@@ -173,7 +173,7 @@ Outcome<core::Done> measure_paper_two(Setting& setting, LightsBench& bench) {
     }
     bool const whole = setting.options.most_lights >= 1'048'576;
     SceneChoice const swarm{"atrium", whole ? "million" : std::to_string(setting.options.most_lights), false, {}, "still"};
-    RunOptions run = options_for(setting.options, swarm, known({"clustered-deferred", "tiled-deferred"}));
+    RunOptions run = options_for(setting.options, swarm, known({"clustered-deferred", "clustered-deferred-device", "tiled-deferred"}));
     run.truth = false;
     auto grown = grow(setting, swarm, run, limited({32, 1024, 32'768, 1'048'576}, setting.options.most_lights), 0);
     if (!grown) return std::move(grown).failure();

@@ -120,6 +120,13 @@ Rows scaling_rows(ScalingResult const& result) {
     return rows;
 }
 
+/// The first run of a technique; null where there is none.
+Run const* run_of(Report const& report, std::string_view technique) {
+    for (Run const& run : report.runs)
+        if (run.result.technique == technique) return &run;
+    return nullptr;
+}
+
 /// Time that a run spends on finding lights: its hierarchy and its lists.
 double assignment_ms(Run const& run) {
     double ms = 0.0;
@@ -130,16 +137,13 @@ double assignment_ms(Run const& run) {
 }
 
 Rows assignment_rows(ScalingResult const& result) {
-    Rows rows{{"lights", "clustered ms", "paper", "tiled ms", "paper", "tiled / clustered", "paper", "a cluster", "a tile", "MB of lists"}};
+    Rows rows{{"lights", "clustered ms", "by kernels", "paper", "tiled ms", "paper", "tiled / clustered", "paper", "a cluster", "a tile", "MB of lists"}};
     for (std::size_t i = 0; i < result.lights.size(); ++i) {
         Report const& report = result.reports[i];
-        Run const* clustered = nullptr;
-        Run const* tiled = nullptr;
-        for (Run const& run : report.runs) {
-            if (run.result.technique == "clustered-deferred") clustered = &run;
-            if (run.result.technique == "tiled-deferred") tiled = &run;
-        }
-        if (clustered == nullptr || tiled == nullptr) continue;
+        Run const* const clustered = run_of(report, "clustered-deferred");
+        Run const* const kernels = run_of(report, "clustered-deferred-device");
+        Run const* const tiled = run_of(report, "tiled-deferred");
+        if (clustered == nullptr || kernels == nullptr || tiled == nullptr) continue;
         auto const of_list = [](Run const& run) {
             auto const lists = static_cast<double>(count_of(run.result.counts, "lists").value_or(0));
             return over(static_cast<double>(count_of(run.result.counts, "light_pairs").value_or(0)), lists);
@@ -150,7 +154,7 @@ Rows assignment_rows(ScalingResult const& result) {
             return static_cast<std::uint32_t>(a.lights) == result.lights[i];
         });
         bool const has_paper = paper != papers::assignment.end();
-        rows.push_back({grouped(result.lights[i]), figures(c), has_paper ? figures(paper->clustered_ms) : "-", figures(t),
+        rows.push_back({grouped(result.lights[i]), figures(c), figures(assignment_ms(*kernels)), has_paper ? figures(paper->clustered_ms) : "-", figures(t),
                         has_paper ? figures(paper->tiled_ms) : "-", over(t, c),
                         has_paper ? figures(paper->tiled_ms / paper->clustered_ms) : "-", of_list(*clustered), of_list(*tiled),
                         figures(static_cast<double>(count_of(clustered->result.bytes, "lists").value_or(0)) * 1e-6)});
@@ -158,16 +162,12 @@ Rows assignment_rows(ScalingResult const& result) {
     return rows;
 }
 
-/// From how many lights on `clustered-deferred` takes less time than `tiled-deferred`; 0: never.
+/// From how many lights on `clustered-deferred` takes less time than `tiled-deferred`.
 std::string crossover_text(ScalingResult const& result) {
     for (std::size_t i = 0; i < result.lights.size(); ++i) {
-        double clustered = 0.0;
-        double tiled = 0.0;
-        for (Run const& run : result.reports[i].runs) {
-            if (run.result.technique == "clustered-deferred") clustered = run.result.ms.median;
-            if (run.result.technique == "tiled-deferred") tiled = run.result.ms.median;
-        }
-        if (clustered < tiled) return fmt::format("clustered-deferred is the faster from {} lights on, of the numbers tried", grouped(result.lights[i]));
+        Run const* const clustered = run_of(result.reports[i], "clustered-deferred");
+        Run const* const tiled = run_of(result.reports[i], "tiled-deferred");
+        if (clustered != nullptr && tiled != nullptr && clustered->result.ms.median < tiled->result.ms.median) return fmt::format("clustered-deferred is the faster from {} lights on, of the numbers tried", grouped(result.lights[i]));
     }
     return "tiled-deferred is the faster with every number tried";
 }
