@@ -5,7 +5,7 @@
 #     types or conventions                                            header_matrix
 #   - floors 0-1: Clang's front end, where the compiler is GCC and Clang 16 or later is installed
 #   - a formula file is C++ and GLSL, alone: glslc reads it too, where it is installed, and its SPIR-V is kept in
-#     BUILD/formulas for the test `house.formulas`
+#     BUILD/formulas for the test `house.formulas`; a .glsl beside the headers, in no folder `formula`, is for shaders alone
 # Adapters are checked where what they need is installed.
 
 set(GNOMON_GLM_MATRIX
@@ -62,9 +62,18 @@ macro(_gnomon_split_headers)
   endforeach()
 endmacro()
 
+# _gnomon_drop_shader_files(): leaves no .glsl in `headers` but formulas: `formula/*.glsl`, `formula.glsl`.
+macro(_gnomon_drop_shader_files)
+  set(shader_files ${headers})
+  list(FILTER shader_files INCLUDE REGEX "\\.glsl$")
+  list(FILTER shader_files EXCLUDE REGEX "/formula/|/formula\\.glsl$")
+  list(REMOVE_ITEM headers ${shader_files})
+endmacro()
+
 macro(_gnomon_header_checks)
   _gnomon_split_headers()
   _gnomon_formula_checks()
+  _gnomon_drop_shader_files()
   set(alone ${headers} ${adapters})
   list(FILTER alone EXCLUDE REGEX "/detail/")
   if(alone)
