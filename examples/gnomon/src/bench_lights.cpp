@@ -112,25 +112,16 @@ Outcome<ScalingResult> grow(Setting& setting, SceneChoice const& choice, RunOpti
     return result;
 }
 
-/// Those of `wanted` that this build has.
-std::vector<std::string> known(std::vector<std::string> const& wanted) {
-    std::vector<std::string> names;
-    for (std::string const& name : wanted)
-        if (pipeline::find_lighting_technique(name)) names.push_back(name);
-    return names;
-}
-
 std::vector<std::string> const& paper_one() {
-    static std::vector<std::string> const names =
-        known({"deferred", "deferred-stencil", "tiled-deferred", "tiled-forward", "tiled-forward-prez"});
+    static std::vector<std::string> const names{"deferred", "deferred-stencil", "tiled-deferred", "tiled-forward", "tiled-forward-prez"};
     return names;
 }
 
 std::vector<std::string> const& paper_two() {
-    static std::vector<std::string> const names =
-        known({"deferred-stencil", "tiled-deferred", "tiled-deferred-en", "tiled-forward-prez", "clustered-deferred",
-               "clustered-deferred-pt", "clustered-deferred-eb", "clustered-deferred-en", "clustered-deferred-nk3",
-               "clustered-deferred-nk3-eb-en", "clustered-deferred-device", "clustered-forward"});
+    static std::vector<std::string> const names{"deferred-stencil",        "tiled-deferred",        "tiled-deferred-en",
+                                                "tiled-forward-prez",      "clustered-deferred",    "clustered-deferred-pt",
+                                                "clustered-deferred-eb",   "clustered-deferred-en", "clustered-deferred-nk3",
+                                                "clustered-deferred-nk3-eb-en", "clustered-deferred-device", "clustered-forward"};
     return names;
 }
 
@@ -166,14 +157,14 @@ Outcome<core::Done> measure_paper_two(Setting& setting, LightsBench& bench) {
     }
     for (bool const trees : {true, false}) {
         SceneChoice const still{"atrium", lights, trees, {}, "still"};
-        auto const run = options_for(setting.options, still, known({"tiled-deferred", "clustered-deferred", "clustered-deferred-pt"}));
+        auto const run = options_for(setting.options, still, {"tiled-deferred", "clustered-deferred", "clustered-deferred-pt"});
         auto grown = grow(setting, still, run, limited({10, 30, 100, 300, 1000, 3000, 10'000}, setting.options.most_lights), 0);
         if (!grown) return std::move(grown).failure();
         bench.crossing.push_back(*std::move(grown));
     }
     bool const whole = setting.options.most_lights >= 1'048'576;
     SceneChoice const swarm{"atrium", whole ? "million" : std::to_string(setting.options.most_lights), false, {}, "still"};
-    RunOptions run = options_for(setting.options, swarm, known({"clustered-deferred", "clustered-deferred-device", "tiled-deferred"}));
+    RunOptions run = options_for(setting.options, swarm, {"clustered-deferred", "clustered-deferred-device", "tiled-deferred"});
     run.truth = false;
     auto grown = grow(setting, swarm, run, limited({32, 1024, 32'768, 1'048'576}, setting.options.most_lights), 0);
     if (!grown) return std::move(grown).failure();
@@ -185,7 +176,7 @@ Outcome<core::Done> measure_paper_two(Setting& setting, LightsBench& bench) {
 Outcome<core::Done> paint(Setting& setting, LightsBench& bench) {
     setting.next("heat maps");
     SceneChoice const still{"atrium", std::to_string(std::min(10'000U, setting.options.most_lights)), true, {}, "still"};
-    RunOptions run = options_for(setting.options, still, known({"deferred-stencil", "tiled-deferred", "clustered-deferred"}));
+    RunOptions run = options_for(setting.options, still, {"deferred-stencil", "tiled-deferred", "clustered-deferred"});
     run.truth = false;
     auto plan = plan_runs(run);
     if (!plan) return std::move(plan).failure();

@@ -11,7 +11,6 @@
 
 namespace gnomon::command {
 
-
 /// A path walked once.
 struct PathResult {
     std::string name;  ///< "robots many".
@@ -33,15 +32,17 @@ struct HeatPicture {
 };
 
 struct LightsBench {
-    PathResult many;                     ///< Paper I: table 2, figures 2 and 3.
-    PathResult few;                      ///< Paper I: table 3.
-    ScalingResult growing;               ///< Paper I: figure 4.
-    std::vector<PathResult> atrium;      ///< Paper II: figures 9 to 11, with and without trees.
-    std::vector<ScalingResult> crossing; ///< Paper II: figure 12, with and without trees.
-    ScalingResult assignment;            ///< Paper II: table 2.
+    PathResult many;                      ///< Paper I: table 2, figures 2 and 3.
+    PathResult few;                       ///< Paper I: table 3.
+    ScalingResult growing;                ///< Paper I: figure 4.
+    std::vector<PathResult> atrium;       ///< Paper II: figures 9 to 11, with and without trees.
+    std::vector<ScalingResult> crossing;  ///< Paper II: figure 12, with and without trees.
+    ScalingResult assignment;             ///< Paper II: table 2.
     std::vector<HeatPicture> heat;
     std::uint32_t heat_most = 0;
-    Report const& any() const noexcept { return many.report; }
+
+    /// For what is the same in all reports: the command, the machine, the size.
+    [[nodiscard]] Report const& any() const noexcept { return many.report; }
 };
 
 /// The reports of a bench, in the order of the page.
