@@ -137,23 +137,8 @@ backend::Result<backend::PassCounts> Backend::shade(backend::DrawListId list, ba
     if (goal == nullptr) return backend::unknown_id("shade", "target", target.value);
     backend::ShadedTarget const shaded{target, &goal->config(), has_alpha_tests(draws->state())};
     if (auto ok = backend::check(kernel, call, layer, shaded, limits()); !ok) return std::move(ok).failure();
-    VkDescriptorBufferInfo infos[backend::max_kernel_buffers] = {};
-    KeptBuffer* buffers[backend::max_kernel_buffers] = {};
-    for (std::size_t i = 0; i < call.buffers.size(); ++i) {
-        buffers[i] = state.buffers.find(call.buffers[i]);
-        if (buffers[i] == nullptr) return backend::unknown_id("shade", "buffer", call.buffers[i].value);
-        infos[i] = {buffers[i]->buffer.handle.get(), 0, buffers[i]->buffer.size};
-    }
-    Target* targets[backend::max_kernel_targets] = {};
-    VkDescriptorImageInfo images[backend::max_kernel_targets] = {};
-    for (std::size_t i = 0; i < call.targets.size(); ++i) {
-        backend::TargetBinding const& binding = call.targets[i];
-        targets[i] = state.targets.find(binding.target);
-        if (targets[i] == nullptr) return backend::unknown_id("shade", "target", binding.target.value);
-        backend::TargetPart const nothing{binding.target, 0, binding.plane, {}};
-        if (auto ok = backend::check_part("shade", nothing, targets[i]->config()); !ok) return std::move(ok).failure();
-        images[i] = {VK_NULL_HANDLE, image_of(*targets[i], binding.plane).view, Target::sampled_layout};
-    }
+    Bindings found;
+    if (auto ok = state.find("shade", call.buffers, call.targets, found); !ok) return std::move(ok).failure();
     auto const pipeline = state.compiled(kernel);
     if (!pipeline) return to_backend(pipeline.failure());
     auto const blending = (*pipeline)->get(call.blend);
@@ -163,12 +148,12 @@ backend::Result<backend::PassCounts> Backend::shade(backend::DrawListId list, ba
     if (auto ok = detail::check_layer(*state.gpu, layer, *goal); !ok) return to_backend(std::move(ok).failure());
     ShadeRecorder recorder(*commands, draws->state(), *goal, layer);
     if (recorder.is_empty()) return backend::PassCounts{};
-    for (std::size_t i = 0; i < call.buffers.size(); ++i) state.order.reads(buffers[i]->touched);
+    for (std::size_t i = 0; i < call.buffers.size(); ++i) state.order.reads(found.buffers[i]->touched);
     state.order.apply(*state.gpu, *commands);
     for (std::size_t i = 0; i < call.targets.size(); ++i)
-        if (targets[i] != goal) targets[i]->prepare(*commands, TargetUse::sample);
+        if (found.targets[i] != goal) found.targets[i]->prepare(*commands, TargetUse::sample);
     recorder.prepare(**pipeline);
-    FragmentInputs const inputs{{infos, call.buffers.size()}, {images, call.targets.size()}, call.constants};
+    FragmentInputs const inputs{{found.infos, call.buffers.size()}, {found.images, call.targets.size()}, call.constants};
     if (auto ok = (*pipeline)->bind(*commands, state.sets, inputs); !ok) return to_backend(std::move(ok).failure());
     return recorder.draw(*blending, call);
 }

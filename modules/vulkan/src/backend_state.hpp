@@ -43,6 +43,14 @@ struct PendingRead {
     HostSlice slice;
 };
 
+/// The resources of a kernel's call, in its order; what is beyond is null.
+struct Bindings {
+    KeptBuffer* buffers[backend::max_kernel_buffers] = {};
+    VkDescriptorBufferInfo infos[backend::max_kernel_buffers] = {};
+    Target* targets[backend::max_kernel_targets] = {};
+    VkDescriptorImageInfo images[backend::max_kernel_targets] = {};
+};
+
 struct Backend::State {
     State(GpuRef device, Host const& owner);
 
@@ -59,6 +67,12 @@ struct Backend::State {
     core::Failure<Error> end(core::Failure<Error> failure);
     [[nodiscard]] Result<ComputeKernel const*> compiled(backend::Kernel const& kernel);
     [[nodiscard]] Result<FragmentPipeline*> compiled(backend::FragmentKernel const& kernel);
+    /// Looks up what a call of `verb` names.
+    ///
+    /// expects: no more than a kernel may have: the call is checked.
+    /// returns: which id is unknown, or which plane a target has not.
+    [[nodiscard]] backend::Result<core::Done> find(std::string_view verb, std::span<backend::BufferId const> wanted_buffers,
+                                                   std::span<backend::TargetBinding const> wanted_targets, Bindings& out);
     /// Made when the first list is kept.
     [[nodiscard]] Result<PassPipelinesRef> passes();
     /// Made when the first samples are counted.
