@@ -103,11 +103,19 @@ struct RunSink8 {
 };
 
 template <bool perspective>
-GNOMON_ROWS_TARGET void find_runs_avx2(cull::RowGrid const& grid, Workspace& work) {
+GNOMON_ROWS_INLINE void find_runs_8(cull::RowGrid const& grid, Workspace& work) {
     RunSink8 sink{work, grid, nullptr, nullptr, 0, {}, {}, {}, {}};
     sink.reserve(1);
     cull::detail::visit_all<perspective>(grid, input_of(work), work.count, sink);
     sink.reserve(1);
+}
+template <bool perspective>
+GNOMON_ROWS_TARGET void find_runs_avx2(cull::RowGrid const& grid, Workspace& work) {
+    find_runs_8<perspective>(grid, work);
+}
+template <bool perspective>
+GNOMON_ROWS_TARGET_32 void find_runs_32(cull::RowGrid const& grid, Workspace& work) {
+    find_runs_8<perspective>(grid, work);
 }
 
 #endif
@@ -115,8 +123,9 @@ GNOMON_ROWS_TARGET void find_runs_avx2(cull::RowGrid const& grid, Workspace& wor
 inline bool find_runs_lanes(cull::RowGrid const& grid, Workspace& work) {
 #if GNOMON_CULL_AVX2
     if (cull::detail::has_avx2()) {
-        if (grid.perspective) find_runs_avx2<true>(grid, work);
-        else find_runs_avx2<false>(grid, work);
+        bool const wide = cull::detail::has_32_registers();
+        if (grid.perspective) (wide ? find_runs_32<true> : find_runs_avx2<true>)(grid, work);
+        else (wide ? find_runs_32<false> : find_runs_avx2<false>)(grid, work);
         return true;
     }
 #endif

@@ -99,10 +99,18 @@ struct PlaneSink8 {
 };
 
 template <bool perspective>
-GNOMON_ROWS_TARGET void scatter_planes_avx2(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
+GNOMON_ROWS_INLINE void scatter_planes_8(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
     PlaneSink8 sink{to, grid, work.index.data(), {}, {}, {}};
     cull::detail::visit_all<perspective>(grid, input_of(work), work.count, sink);
     sink.clear(to.groups);
+}
+template <bool perspective>
+GNOMON_ROWS_TARGET void scatter_planes_avx2(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
+    scatter_planes_8<perspective>(grid, work, to);
+}
+template <bool perspective>
+GNOMON_ROWS_TARGET_32 void scatter_planes_32(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
+    scatter_planes_8<perspective>(grid, work, to);
 }
 
 #endif
@@ -111,8 +119,9 @@ GNOMON_ROWS_TARGET void scatter_planes_avx2(cull::RowGrid const& grid, Workspace
 inline bool scatter_planes_lanes(cull::RowGrid const& grid, Workspace const& work, PlaneTarget const& to) {
 #if GNOMON_CULL_AVX2
     if (cull::detail::has_avx2()) {
-        if (grid.perspective) scatter_planes_avx2<true>(grid, work, to);
-        else scatter_planes_avx2<false>(grid, work, to);
+        bool const wide = cull::detail::has_32_registers();
+        if (grid.perspective) (wide ? scatter_planes_32<true> : scatter_planes_avx2<true>)(grid, work, to);
+        else (wide ? scatter_planes_32<false> : scatter_planes_avx2<false>)(grid, work, to);
         return true;
     }
 #endif
