@@ -1,9 +1,10 @@
 #include <gnomon/raster/cpu_backend.hpp>
 
-#include <gnomon/backend/check.hpp>
+#include <gnomon/backend/check_ortho.hpp>
 #include <gnomon/backend/slots.hpp>
 #include <gnomon/raster/alpha_map.hpp>
 #include <gnomon/raster/layers.hpp>
+#include <gnomon/raster/ortho.hpp>
 #include <gnomon/raster/sample_query.hpp>
 
 #include "shading.hpp"
@@ -64,6 +65,11 @@ struct List {
     std::vector<AlphaTest> tests;                 // Pointed to by `draws`.
     std::vector<std::unique_ptr<AlphaMap>> maps;  // Pointed to by `tests`; one for each that differs.
     std::vector<Draw> draws;
+
+    [[nodiscard]] backend::OrthoList ortho() const noexcept {
+        bool const some = std::any_of(draws.begin(), draws.end(), [](Draw const& d) { return d.instances.is_set(); });
+        return {draws.size(), some};
+    }
 };
 
 struct Target {
@@ -79,10 +85,12 @@ struct Target {
     [[nodiscard]] ImageView<T> image(Bytes const& bytes, std::uint32_t layer) const noexcept {
         return make_image(reinterpret_cast<T*>(bytes.data()) + layer * pixels(), config.size_px.x, config.size_px.y);
     }
+    [[nodiscard]] DepthTarget depth_target(std::uint32_t layer) const noexcept {
+        if (config.depth == backend::DepthFormat::unorm16) return image<std::uint16_t>(depth, layer);
+        return image<float>(depth, layer);
+    }
     [[nodiscard]] Layer layer(PassLayer const& pass) const noexcept {
-        Layer layer{.target = config.depth == backend::DepthFormat::unorm16
-                                  ? DepthTarget(image<std::uint16_t>(depth, pass.layer))
-                                  : DepthTarget(image<float>(depth, pass.layer)),
+        Layer layer{.target = depth_target(pass.layer),
                     .origin = pass.origin,
                     .clip_from_relative = pass.clip_from_relative,
                     .groups = pass.groups};
@@ -159,6 +167,8 @@ struct CpuBackend::State {
     backend::Slots<BufferId, Bytes> buffers;
     Workspace passes;
     QueryWorkspace queries;
+    TileWorkspace tiles;
+    std::vector<OrthoDraw> ortho_draws;
     std::vector<Layer> layers;
     std::vector<std::uint64_t> counts;
     std::vector<StageTime> stages;
@@ -312,6 +322,48 @@ Result<backend::PassCounts> CpuBackend::shade(DrawListId list, TargetId target, 
         ++counts.draw_calls;
     }
     return counts;
+}
+
+Result<backend::PassCounts> CpuBackend::draw_ortho(DrawListId list, TargetId target,
+                                                   std::span<backend::OrthoLayer const> layers) {
+    List const* const kept = state_->lists.find(list);
+    if (kept == nullptr) return backend::unknown_id("draw_ortho", "draw list", list.value);
+    Target const* const to = state_->targets.find(target);
+    if (to == nullptr) return backend::unknown_id("draw_ortho", "target", target.value);
+    if (auto ok = backend::check_layers(layers, to->config, kept->ortho()); !ok) return std::move(ok).failure();
+    backend::PassCounts counts;
+    for (backend::OrthoLayer const& layer : layers) {
+        state_->ortho_draws.clear();
+        backend::for_each_draw(layer, kept->draws.size(), [&](std::size_t i) {
+            Draw const& draw = kept->draws[i];
+            state_->ortho_draws.push_back({draw.positions, draw.indices, layer.origin_m, draw.cull, draw.alpha_test});
+            counts.triangles += triangle_count(draw);
+            ++counts.draw_calls;
+        });
+        OrthoConfig const config{layer.depth, layer.range, layer.load, layer.scissor};
+        ortho_pass(state_->ortho_draws, layer.light, to->depth_target(layer.layer), config, state_->tiles, state_->executor);
+    }
+    return counts;
+}
+
+Result<Done> CpuBackend::write_depth(backend::DepthKernel const& kernel, backend::DepthCall const& call) {
+    Target const* const to = state_->targets.find(call.to);
+    if (to == nullptr) return backend::unknown_id("write_depth", "target", call.to.value);
+    if (auto ok = backend::check(kernel, call, to->config); !ok) return ok;
+    if (kernel.cpu == nullptr)
+        return core::Failure{Error::missing_feature,
+                             "write_depth: kernel '" + std::string(kernel.name) + "' has no C++ half"};
+    Bound bound;
+    if (auto ok = state_->bind("write_depth", call.buffers, call.targets, bound); !ok) return ok;
+    backend::KernelData const data = bound.data(call.constants);
+    TargetPart const part{call.to, call.layer, Plane::depth, call.rect};
+    constexpr std::size_t rows_a_task = 16;
+    state_->executor.parallel_for(static_cast<std::size_t>(call.rect.height), rows_a_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            kernel.cpu(data, {to->row(part, static_cast<std::int32_t>(y)), call.rect.x,
+                              call.rect.y + static_cast<std::int32_t>(y), call.rect.width, to->config.depth});
+    });
+    return Done{};
 }
 
 Result<Done> CpuBackend::count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,

@@ -40,6 +40,12 @@ class Forward : public Backend {
                              FragmentCall const& call) override {
         return to_->shade(list, target, layer, kernel, call);
     }
+    Result<PassCounts> draw_ortho(DrawListId list, TargetId target, std::span<OrthoLayer const> layers) override {
+        return to_->draw_ortho(list, target, layers);
+    }
+    Result<Done> write_depth(DepthKernel const& kernel, DepthCall const& call) override {
+        return to_->write_depth(kernel, call);
+    }
     Result<Done> count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
                                BufferId counts, std::size_t first) override {
         return to_->count_samples(boxes, target, view, counts, first);

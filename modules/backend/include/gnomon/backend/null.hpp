@@ -3,6 +3,7 @@
 // nor a GPU, and times what a technique costs beside them.
 
 #include <gnomon/backend/check.hpp>
+#include <gnomon/backend/check_ortho.hpp>
 #include <gnomon/backend/slots.hpp>
 #include <gnomon/backend/verbs.hpp>
 
@@ -32,6 +33,7 @@ class NullBackend final : public Backend {
         for (Draw const& draw : draws) {
             list.groups.push_back(draw.groups);
             list.triangles.push_back(std::uint64_t{triangle_count(draw)} * draw.instances.size());
+            list.has_instances = list.has_instances || draw.instances.is_set();
             list.has_alpha_tests = list.has_alpha_tests || draw.alpha_test != nullptr;
         }
         return made(lists_.insert(std::move(list)), "keep");
@@ -75,6 +77,23 @@ class NullBackend final : public Backend {
         if (auto ok = check(kernel, call, layer, to, limits_); !ok) return std::move(ok).failure();
         if (auto ok = check_ids("shade", call.buffers, call.targets); !ok) return std::move(ok).failure();
         return kept->counts({&layer, 1});
+    }
+    Result<PassCounts> draw_ortho(DrawListId list, TargetId target, std::span<OrthoLayer const> layers) override {
+        List const* const kept = lists_.find(list);
+        if (kept == nullptr) return unknown_id("draw_ortho", "draw list", list.value);
+        TargetConfig const* const config = targets_.find(target);
+        if (config == nullptr) return unknown_id("draw_ortho", "target", target.value);
+        if (auto ok = check_layers(layers, *config, kept->ortho()); !ok) return std::move(ok).failure();
+        PassCounts counts;
+        for (OrthoLayer const& layer : layers)
+            for_each_draw(layer, kept->triangles.size(), [&](std::size_t i) { counts.triangles += kept->triangles[i]; });
+        return counts;
+    }
+    Result<Done> write_depth(DepthKernel const& kernel, DepthCall const& call) override {
+        TargetConfig const* const config = targets_.find(call.to);
+        if (config == nullptr) return unknown_id("write_depth", "target", call.to.value);
+        if (auto ok = check(kernel, call, *config); !ok) return ok;
+        return check_ids("write_depth", call.buffers, call.targets);
     }
     Result<Done> count_samples(std::span<math::Aabb const> boxes, TargetId target, PassLayer const& view,
                                BufferId counts, std::size_t first) override {
@@ -122,6 +141,9 @@ class NullBackend final : public Backend {
         std::vector<std::uint64_t> groups;
         std::vector<std::uint64_t> triangles;
         bool has_alpha_tests = false;
+        bool has_instances = false;
+
+        [[nodiscard]] OrthoList ortho() const noexcept { return {triangles.size(), has_instances}; }
 
         [[nodiscard]] PassCounts counts(std::span<PassLayer const> layers) const noexcept {
             PassCounts counts;

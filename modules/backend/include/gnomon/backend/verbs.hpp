@@ -5,10 +5,12 @@
 // `finish` waits. What a verb is given (spans, configurations) may change once it has returned, unless it says
 // otherwise. A verb that fails has recorded nothing.
 
+#include <gnomon/backend/depth_kernel.hpp>
 #include <gnomon/backend/draw.hpp>
 #include <gnomon/backend/error.hpp>
 #include <gnomon/backend/fragment.hpp>
 #include <gnomon/backend/kernel.hpp>
+#include <gnomon/backend/ortho.hpp>
 #include <gnomon/backend/pass.hpp>
 #include <gnomon/math/bounds.hpp>
 
@@ -88,6 +90,12 @@ class Backend {
     ///          views, where it is `visible`.
     virtual Result<PassCounts> shade(DrawListId list, TargetId target, PassLayer const& layer,
                                      FragmentKernel const& kernel, FragmentCall const& call) = 0;
+    /// Draws a list's nearest depths into layers of a target, in whole units: `raster::ortho_pass` says which, to the bit.
+    ///
+    /// expects: draws without instances, a target without triangle ids and colours, no pixel in two layers' areas.
+    virtual Result<PassCounts> draw_ortho(DrawListId list, TargetId target, std::span<OrthoLayer const> layers) = 0;
+    /// Gives each pixel of a part of a target a depth.
+    virtual Result<Done> write_depth(DepthKernel const& kernel, DepthCall const& call) = 0;
     /// Writes to `counts[first + i]`, 32 bits each, at how many samples of the view's area box i would pass the depth
     /// test if its faces were drawn, both sides; nothing is drawn. `view.load` and `view.groups` are not looked at.
     ///

@@ -16,7 +16,7 @@ namespace gnomon::raster {
 /// the next `stage` or `finish`, what the caller does in between included.
 ///
 /// Images are those of `layered_pass`, bit for bit, and so the same for any executor. What a kept list's draws point to
-/// is read where it lies; alpha tests without a map get one. Nothing is allocated by `draw`, `count_samples`, `run`,
+/// is read where it lies; alpha tests without a map get one. Nothing is allocated by `draw`, `draw_ortho`, `write_depth`, `count_samples`, `run`,
 /// `write`, `copy`, `read`, `stage` and `finish` once the same calls were made before.
 class CpuBackend final : public backend::Backend {
   public:
@@ -48,6 +48,10 @@ class CpuBackend final : public backend::Backend {
     backend::Result<backend::PassCounts> shade(backend::DrawListId list, backend::TargetId target,
                                                backend::PassLayer const& layer, backend::FragmentKernel const& kernel,
                                                backend::FragmentCall const& call) override;
+    backend::Result<backend::PassCounts> draw_ortho(backend::DrawListId list, backend::TargetId target,
+                                                    std::span<backend::OrthoLayer const> layers) override;
+    backend::Result<backend::Done> write_depth(backend::DepthKernel const& kernel,
+                                               backend::DepthCall const& call) override;
     /// Exact: a sample counts once, however many faces pass there. See `count_samples_passing`.
     backend::Result<backend::Done> count_samples(std::span<math::Aabb const> boxes, backend::TargetId target,
                                                  backend::PassLayer const& view, backend::BufferId counts,

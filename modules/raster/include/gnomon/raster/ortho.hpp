@@ -1,10 +1,10 @@
 #pragma once
-// Orthographic depth in whole units of an absolute light space: the image of a scene that is moved by whole texels and
-// depth units is the moved image, bit for bit. Scrolling shadow maps stand on this.
+// Orthographic depth in whole units of an absolute light space (gnomon/backend/ortho.hpp).
 //
 // Corners are rounded once, in absolute light space, to 1/256 texel and 1/256 depth unit; everything after that is
 // integer, or a function of differences of these integers. There is no float clipping and no guard band.
 
+#include <gnomon/backend/ortho.hpp>
 #include <gnomon/core/executor.hpp>
 #include <gnomon/math/view.hpp>
 #include <gnomon/raster/draw.hpp>
@@ -18,17 +18,7 @@
 
 namespace gnomon::raster {
 
-/// A light's axes, its units, and where the image begins, in whole units.
-struct IntegerOrtho {
-    math::dvec3 right{1.0, 0.0, 0.0};  ///< Columns go this way. The three axes are unit vectors, at right angles.
-    math::dvec3 down{0.0, -1.0, 0.0};  ///< Rows go this way.
-    math::dvec3 away{0.0, 0.0, -1.0};  ///< Depth grows this way, from the light.
-    double texel_m = 0.015625;
-    double depth_unit_m = 0.001;  ///< One code of the image: 1/65535 of a 16-bit one, 2^-24 of a float one.
-    std::int64_t origin_x = 0;    ///< Texels from the world's origin to the image's left side.
-    std::int64_t origin_y = 0;    ///< To its top.
-    std::int64_t origin_z = 0;    ///< Depth units to code 0.
-};
+using backend::IntegerOrtho;
 
 inline constexpr std::int64_t max_light_units = std::int64_t{1} << 50;  ///< Of an absolute coordinate.
 inline constexpr std::int64_t max_ortho_extent = std::int64_t{1}
@@ -96,7 +86,7 @@ struct OrthoStats {
 ///
 ///     |code - exact| <= 1/2 + (1/2 + 2^-50 (|z_1 - z_0| + |z_2 - z_0|)) / 256
 ///
-/// expects: `texel_m`, `depth_unit_m` > 0, |origins| at most 2^42, target sizes at most `max_size_px`.
+/// expects: `texel_m`, `depth_unit_m` > 0, |origins| at most `backend::max_light_origin`, target sizes at most `max_size_px`.
 /// returns: the counts. Allocates only what `workspace` lacks.
 /// cost:    O(triangles + samples), triangles and tiles in parallel; the same for any executor.
 OrthoStats ortho_pass(std::span<OrthoDraw const> draws, IntegerOrtho const& light, DepthTarget const& target,

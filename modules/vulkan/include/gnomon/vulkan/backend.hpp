@@ -56,6 +56,10 @@ class Backend final : public backend::Backend {
     backend::Result<backend::PassCounts> shade(backend::DrawListId list, backend::TargetId target,
                                                backend::PassLayer const& layer, backend::FragmentKernel const& kernel,
                                                backend::FragmentCall const& call) override;
+    backend::Result<backend::PassCounts> draw_ortho(backend::DrawListId list, backend::TargetId target,
+                                                    std::span<backend::OrthoLayer const> layers) override;
+    backend::Result<core::Done> write_depth(backend::DepthKernel const& kernel,
+                                            backend::DepthCall const& call) override;
     backend::Result<core::Done> count_samples(std::span<math::Aabb const> boxes, backend::TargetId target,
                                               backend::PassLayer const& view, backend::BufferId counts,
                                               std::size_t first) override;
