@@ -7,3 +7,4 @@
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/cull/screen_bounds.hpp>
 #include <gnomon/cull/shapes.hpp>
+#include <gnomon/cull/tile_planes.hpp>

@@ -2,6 +2,7 @@
 // Lights, and which clusters of a grid each of them touches.
 
 #include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/bounding_ball.hpp>
 #include <gnomon/lights/brute_force.hpp>
 #include <gnomon/lights/hierarchical.hpp>
 #include <gnomon/lights/light.hpp>

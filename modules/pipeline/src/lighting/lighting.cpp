@@ -121,6 +121,29 @@ Lighting& begin_lighting(LightingRun const& on, Verbs& verbs) {
     return lighting;
 }
 
+math::vec3 shading_eye(Frame const& frame) noexcept {
+    bool const orthographic = frame.view.lens == math::Lens::orthographic;
+    return math::to_float(orthographic ? frame.view.back : frame.view.eye_m - frame.geometry->origin_m);
+}
+
+Result<LightingOutput> read_image(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages) {
+    Lighting& l = on.workspace.state().lighting;
+    std::size_t const n = on.frame.samples.size();
+    LightingOutput output;
+    output.radiance.resize(n);
+    output.computations.resize(n);
+    on.device.stage("");
+    verbs(on.device.read(l.radiance.get(), 0, std::as_writable_bytes(std::span(output.radiance))));
+    verbs(on.device.read(l.computations.get(), 0, std::as_writable_bytes(std::span(output.computations))));
+    auto const device_stages = verbs(on.device.finish());
+    if (!verbs.good()) return verbs.failure();
+    output.stages = std::move(stages);
+    output.stages.insert(output.stages.end(), device_stages.begin(), device_stages.end());
+    output.counts = {{"lighting_computations", sum_of(output.computations)}};
+    output.bytes = {{"gbuffer", n * words_of(l.format) * sizeof(std::uint32_t)}};
+    return output;
+}
+
 Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages,
                                    std::function<void(ShadeListsStd const&)> const& then) {
     Workspace::State& state = on.workspace.state();
@@ -137,26 +160,17 @@ Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vec
     std::array const buffers{state.samples.samples.get(), l.gbuffer.get(), l.lights.get(),   l.list_of.get(),
                              l.cells.get(),               l.indices.get(), l.radiance.get(), l.computations.get()};
     bool const orthographic = on.frame.view.lens == math::Lens::orthographic;
-    math::vec3 const eye = math::to_float(orthographic ? on.frame.view.back : on.frame.view.eye_m - on.frame.geometry->origin_m);
+    math::vec3 const eye = shading_eye(on.frame);
     ShadeListsStd const constants{static_cast<std::uint32_t>(n), l.format == GBufferFormat::f16 ? 1U : 0U, orthographic ? 1U : 0U,
                                   {eye.x, eye.y, eye.z}};
     verbs(on.device.run(shade_lists_kernel, {n, buffers, {}, backend::bytes_of(constants)}));
     if (then) then(constants);
-    on.device.stage("");
-    LightingOutput output;
-    output.radiance.resize(n);
-    output.computations.resize(n);
-    verbs(on.device.read(l.radiance.get(), 0, std::as_writable_bytes(std::span(output.radiance))));
-    verbs(on.device.read(l.computations.get(), 0, std::as_writable_bytes(std::span(output.computations))));
-    auto const device_stages = verbs(on.device.finish());
-    if (!verbs.good()) return verbs.failure();
-    output.stages = std::move(stages);
-    output.stages.insert(output.stages.end(), device_stages.begin(), device_stages.end());
+    auto output = read_image(on, verbs, std::move(stages));
+    if (!output) return output;
     std::uint64_t pairs = 0;
     for (lights::Cell const& cell : l.list_cells) pairs += cell.count;
-    output.counts = {{"lighting_computations", sum_of(output.computations)}, {"light_pairs", pairs}, {"lists", l.list_cells.size()}};
-    output.bytes = {{"gbuffer", n * words_of(l.format) * sizeof(std::uint32_t)},
-                    {"lists", l.list_cells.size() * sizeof(lights::Cell) + l.list_indices.size() * sizeof(std::uint32_t)}};
+    output->counts.insert(output->counts.end(), {{"light_pairs", pairs}, {"lists", l.list_cells.size()}});
+    output->bytes.push_back({"lists", l.list_cells.size() * sizeof(lights::Cell) + l.list_indices.size() * sizeof(std::uint32_t)});
     return output;
 }
 

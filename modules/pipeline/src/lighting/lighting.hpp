@@ -10,6 +10,7 @@
 #include "forward.hpp"
 #include "gbuffer.hpp"
 #include "light_kernels.hpp"
+#include "tile_kernels.hpp"
 #include "../staged.hpp"
 
 #include <cstdint>
@@ -69,6 +70,11 @@ struct Lighting {
     lights::LightTree tree;
     lights::SparseWorkspace sparse;
 
+    std::vector<float> tile_balls;  ///< Of lights, an array a number.
+    StagedBuffer balls;
+    StagedBuffer borders;
+    StagedBuffer lights_of;
+
     DeviceLists on_device;
     ForwardState forward;
 
@@ -107,6 +113,8 @@ void widen(std::span<cluster::NormalCone> cones) noexcept;
 /// The normals of samples as the G-buffer has them, in culling space.
 void turn_normals(LightingRun const& on, GBufferFormat format, std::vector<math::vec3>& out);
 
+/// Tiles alone: one slice without an end. The run has a parameter `tile`.
+[[nodiscard]] Result<cluster::Grid> make_tile_grid(LightingRun const& on);
 /// A grid of cubical clusters as deep as the samples go.
 [[nodiscard]] Result<cluster::Grid> make_cluster_grid(LightingRun const& on);
 /// The same up to a depth of the caller's.
@@ -137,6 +145,14 @@ struct ComputationCounts {
 /// returns: the image, its counts and the stages that ran on the device; `stages` of the host come first.
 [[nodiscard]] Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages,
                                                  std::function<void(ShadeListsStd const&)> const& then = {});
+
+/// Reads radiance and computations back and finishes, and counts what both say: `lighting_computations`.
+///
+/// expects: `stages` of the host, which come first
+[[nodiscard]] Result<LightingOutput> read_image(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages);
+
+/// Where shading looks for the eye: a place in work space, or in an orthographic view the direction toward it.
+[[nodiscard]] math::vec3 shading_eye(Frame const& frame) noexcept;
 
 /// Sets up the workspace, the G-buffer and the lights.
 [[nodiscard]] Lighting& begin_lighting(LightingRun const& on, Verbs& verbs);

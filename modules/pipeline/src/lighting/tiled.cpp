@@ -24,17 +24,6 @@ std::array<ParamInfo, 2> const& tiled_params() noexcept {
     return all;
 }
 
-/// Tiles alone: one slice without an end.
-Result<cluster::Grid> make_tile_grid(LightingRun const& on) {
-    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
-    std::array<float, 2> const planes{static_cast<float>(on.frame.view.near_m), std::numeric_limits<float>::infinity()};
-    auto slices = cluster::make_slices(std::span<float const>(planes));
-    if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
-    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
-    if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
-    return std::move(grid).value();
-}
-
 /// The samples of a row of tiles: they stand in the order of their pixels.
 std::pair<std::size_t, std::size_t> samples_between(std::span<std::uint32_t const> pixels, std::uint64_t first_pixel, std::uint64_t end_pixel) {
     auto const begin = std::lower_bound(pixels.begin(), pixels.end(), first_pixel);
@@ -143,6 +132,16 @@ Result<LightingOutput> run_tiled(LightingRun const& on, bool normals) {
 }
 
 }  // namespace
+
+Result<cluster::Grid> make_tile_grid(LightingRun const& on) {
+    auto const tile = static_cast<std::int32_t>(on.params.integer("tile"));
+    std::array<float, 2> const planes{static_cast<float>(on.frame.view.near_m), std::numeric_limits<float>::infinity()};
+    auto slices = cluster::make_slices(std::span<float const>(planes));
+    if (!slices) return core::Failure{Error::bad_value, slices.failure().message};
+    auto grid = cluster::make_grid(on.frame.view, math::ivec2(tile, tile), std::move(slices).value());
+    if (!grid) return core::Failure{Error::bad_value, grid.failure().message};
+    return std::move(grid).value();
+}
 
 Result<lights::ListsReport> find_tiled_lists(LightingRun const& on, std::vector<StageTime>& stages) { return find_lists(on, false, stages); }
 

@@ -1,0 +1,40 @@
+#pragma once
+// The kernels that find a tile's lights and shade it in one: what stands in their buffers and constants, laid out by std430.
+// The GLSL halves (shaders/*.comp) declare the same.
+
+#include <gnomon/backend/kernel.hpp>
+
+#include <cstdint>
+
+namespace gnomon::pipeline {
+
+// --- shade_tiles: a group of 64 for a tile ---------------------------------------------------------------------------
+//
+// buffers   0 samples: sample::ViewSample[n]   1 gbuffer: see GBufferTexel   2 lights::ShadedLight[]
+//           3 uint sample_of[pixels]: `no_sample` for the background
+//           4 float balls[4][lights]: x, y, depth, radius of a light in culling space; infinite: everywhere; below 0: nowhere
+//           5 cull::TileBorder borders[columns + 1 + rows + 1]: of columns, then of rows
+//           6 out float radiance[n][3]   7 out uint computations[n]   8 out uint lights_of[tiles]; 0 where a tile has no sample
+// The group finds the nearest and the farthest sample of its tile, tests every light, 64 at a time, and lists those that
+// may reach the tile, in ascending order, in memory that the group shares. Where that is full its samples are shaded and
+// the list begins anew: it has no limit. The sum begins with what no light adds.
+
+struct ShadeTilesStd {
+    std::uint32_t tile;           ///< Pixels.
+    std::uint32_t columns, rows;  ///< Of tiles.
+    std::uint32_t width, height;  ///< Of the image.
+    std::uint32_t lights;         ///< A multiple of 64: balls beyond the last have negative radii.
+    std::uint32_t halves;         ///< 1: the G-buffer has 16 bits a number.
+    std::uint32_t orthographic;   ///< 1: `eye` is the direction toward the eye.
+    float eye[3];                 ///< Work space, as all of these.
+    float from[3];                ///< Depths are along `forward`, from here on.
+    float forward[3];
+};
+static_assert(sizeof(ShadeTilesStd) == 68);
+
+/// Lights that a group lists before it shades.
+inline constexpr std::uint32_t tile_list_size = 1024;
+
+extern backend::Kernel const shade_tiles_kernel;
+
+}  // namespace gnomon::pipeline
