@@ -1,0 +1,203 @@
+#include "world.hpp"
+
+#include <gnomon/check/check.hpp>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace gnomon;
+using namespace gnomon::check;
+using cache_model::Fault;
+using cache_model::Faulty;
+
+/// Sequences of 12 frames each.
+template <class Rules>
+cache_model::Tally run_sequences(std::uint64_t first, std::uint64_t count, Fault fault, bool until_wrong) {
+    cache_model::Tally tally;
+    for (std::uint64_t s = first; s < first + count; ++s) {
+        cache_model::World<Rules> world(s, fault, tally);
+        world.run(12);
+        if (until_wrong && tally.wrong() > 0) break;
+    }
+    return tally;
+}
+
+void check_tally(cache_model::Tally const& t) {
+    INFO("first wrong sequence " << t.first_wrong);
+    CHECK(t.wrong_c == 0);
+    CHECK(t.wrong_w == 0);
+    CHECK(t.wrong_part == 0);
+    CHECK(t.wrong_books == 0);
+    CHECK(t.needless == 0);
+    CHECK(adds_up(t.history));
+    CHECK(t.compared > t.frames / 2);
+    CHECK(t.partial > t.frames / 50);
+    CHECK(t.postponed > t.frames / 20);
+    CHECK(t.history.scrolls > t.frames / 20);
+    CHECK(t.history.kept > t.frames / 50);
+    CHECK(t.history.additions > t.frames / 50);
+}
+
+TEST_CASE("random sequences of events leave every map as it is drawn from nothing", "[cache][property]") {
+    check_tally(run_sequences<cache::detail::Rules>(0, 20000, Fault::none, false));
+}
+
+TEST_CASE("a million random sequences leave every map as it is drawn from nothing", "[cache][property][.full]") {
+    auto const t = run_sequences<cache::detail::Rules>(0, 1000000, Fault::none, false);
+    check_tally(t);
+    std::string text = "frames " + std::to_string(t.frames) + ", compared " + std::to_string(t.compared) + ", partial " +
+                       std::to_string(t.partial) + ", postponed " + std::to_string(t.postponed);
+    for (std::size_t i = 1; i < cache::reason_count; ++i)
+        text += std::string("\n  ") + cache::name_of(static_cast<cache::Reason>(i)) + " " + std::to_string(t.history.by_reason[i]);
+    WARN(text);
+}
+
+TEST_CASE("each rule that is broken, the paper's printed ones among them, is found out", "[cache][property]") {
+    for (int f = 1; f < static_cast<int>(Fault::end); ++f) {
+        auto const fault = static_cast<Fault>(f);
+        Faulty::set(fault);
+        auto const t = run_sequences<Faulty>(0, 40000, fault, true);
+        INFO("fault " << f << " after " << t.frames << " frames");
+        CHECK(t.wrong() > 0);
+    }
+    Faulty::set(Fault::none);
+    CHECK(run_sequences<Faulty>(0, 200, Fault::none, true).wrong() == 0);
+}
+
+TEST_CASE("a jump of exactly one map's width redraws it, a jump of one less scrolls", "[cache]") {
+    std::vector<cache::Object> const none;
+    cache::CachedMap map;
+    (void)map.plan({.width = 512, .height = 512}, none);
+    map.commit();
+    CHECK(map.plan({.x = 511, .width = 512, .height = 512}, none).action == cache::MapAction::scroll);
+    CHECK(map.plan({.x = -511, .y = 511, .width = 512, .height = 512}, none).action == cache::MapAction::scroll);
+    auto const& plan = map.plan({.x = 512, .width = 512, .height = 512}, none);
+    CHECK(plan.action == cache::MapAction::redraw);
+    CHECK(plan.reason == cache::Reason::volume_jumped);
+    CHECK(map.plan({.y = -512, .width = 512, .height = 512}, none).reason == cache::Reason::volume_jumped);
+    CHECK(map.plan({.z = 1000000, .width = 512, .height = 512}, none).action == cache::MapAction::scroll);
+}
+
+cache::Object static_object(std::uint32_t id, cache::Box const& box, std::uint32_t revision = 1) {
+    return {cache::ObjectId{id}, revision, cache::ObjectState::static_, cache::ObjectEvent::deformed, box};
+}
+
+TEST_CASE("an object at the border is drawn to the strip that it reaches into, and only then", "[cache]") {
+    std::vector<cache::Object> const objects{static_object(3, {90, 10, 5, 130, 20, 9}), static_object(7, {0, 0, 0, 10, 10, 1})};
+    cache::CachedMap map;
+    CHECK(map.plan({.width = 100, .height = 100}, objects).statics.size() == 2);
+    map.commit();
+    auto const& p = map.plan({.x = 20, .width = 100, .height = 100}, objects);
+    CHECK(p.shift == cache::Shift{20, 0, 0});
+    CHECK(p.statics.size() == 1);
+    CHECK(p.statics[0] == 0);
+    CHECK(p.counts.uncovered == 1);
+    map.commit();
+    CHECK(map.plan({.x = 25, .width = 100, .height = 100}, objects).statics.size() == 1);
+    map.commit();
+    CHECK(map.plan({.x = 40, .width = 100, .height = 100}, objects).statics.size() == 1);  // its last columns
+    map.commit();
+    CHECK(map.plan({.x = 45, .width = 100, .height = 100}, objects).statics.empty());  // wholly inside before
+    map.commit();
+    auto const& back = map.plan({.width = 100, .height = 100}, objects);
+    CHECK(back.statics.size() == 1);  // the other one comes into view again
+    CHECK(back.counts.joined == 1);
+}
+
+TEST_CASE("the plan says why, and which object is to blame", "[cache]") {
+    std::vector<cache::Object> objects{static_object(3, {0, 0, 5, 30, 20, 9}), static_object(7, {0, 0, 0, 10, 10, 1})};
+    cache::Volume const v{.width = 100, .height = 100};
+    cache::CachedMap map;
+    CHECK(map.plan(v, objects).reason == cache::Reason::first_use);
+    map.commit();
+    objects[1].revision = 2;
+    CHECK(map.plan(v, objects).reason == cache::Reason::member_deformed);
+    CHECK(map.plan(v, objects).culprit == cache::ObjectId{7});
+    map.postpone();
+    CHECK(map.state() == cache::MapState::invalid);
+    CHECK(map.stale_updates() == 1);
+    CHECK(map.plan(v, objects).reason == cache::Reason::member_deformed);  // still, a frame later
+    map.commit();
+    CHECK(map.stale_updates() == 0);
+    objects.pop_back();
+    CHECK(map.plan(v, objects).reason == cache::Reason::member_missing);
+    map.commit();
+    map.notify(cache::MapEvent::light_posed);
+    CHECK(map.plan(v, objects).reason == cache::Reason::light_posed);
+    map.commit();
+    CHECK(map.history().redraws == 4);
+    CHECK(map.history().of(cache::Reason::member_deformed) == 1);
+    CHECK(map.history().postponed == 1);
+    CHECK(adds_up(map.history()));
+}
+
+TEST_CASE("a changed member that is not in the kept region costs no redraw, by where it was drawn", "[cache]") {
+    std::vector<cache::Object> objects{static_object(1, {0, 0, 5, 10, 10, 9}), static_object(2, {60, 60, 0, 70, 70, 1})};
+    cache::CachedMap map;
+    (void)map.plan({.width = 100, .height = 100}, objects);
+    map.commit();
+    objects[0] = static_object(1, {50, 50, 5, 60, 60, 9}, 2);  // was at the border that is scrolled out
+    auto const& p = map.plan({.x = 20, .width = 100, .height = 100}, objects);
+    CHECK(p.action == cache::MapAction::scroll);
+    CHECK(p.counts.left == 1);
+    CHECK(p.statics.size() == 1);
+    map.commit();
+    objects[0] = static_object(1, {110, 0, 5, 119, 10, 9}, 3);  // moves to where the map will not have been
+    CHECK(map.plan({.x = 60, .width = 100, .height = 100}, objects).action == cache::MapAction::scroll);
+    CHECK(map.plan({.x = 40, .width = 100, .height = 100}, objects).action == cache::MapAction::redraw);
+}
+
+TEST_CASE("a spot's map is drawn again for a changed member only, and each face of a cube for itself", "[cache]") {
+    std::vector<cache::Object> objects{static_object(1, {}), static_object(2, {}), static_object(5, {})};
+    std::vector<int> face{0, 1, 1};
+    cache::CachedMap faces[2];
+    auto const update = [&](std::size_t f) {
+        auto const p = faces[f].plan_fixed(objects, [&](std::uint32_t i) { return face[i] == static_cast<int>(f); });
+        faces[f].commit();
+        return p;
+    };
+    CHECK(update(0).action == cache::MapAction::redraw);
+    CHECK(update(1).counts.statics == 2);
+    CHECK(update(1).action == cache::MapAction::none);
+    ++objects[2].revision;
+    CHECK(update(0).action == cache::MapAction::none);
+    CHECK(update(1).action == cache::MapAction::redraw);
+    objects[0].state = cache::ObjectState::active;
+    auto const p = update(0);
+    CHECK(p.action == cache::MapAction::redraw);
+    CHECK(p.counts.actives == 1);
+    CHECK(p.compose == cache::Compose::copy_and_draw);
+    CHECK(update(0).action == cache::MapAction::none);
+    objects.erase(objects.begin());
+    face = {1, 1};
+    CHECK(update(0).compose == cache::Compose::copy);
+    CHECK(update(0).compose == cache::Compose::keep);
+    face = {0, 1};
+    ++objects[0].revision;  // goes over to the other face
+    CHECK(update(0).action == cache::MapAction::add);
+    faces[0].notify(cache::MapEvent::light_posed);
+    CHECK(update(0).action == cache::MapAction::redraw);
+    CHECK(update(1).reason == cache::Reason::member_deformed);
+    CHECK(update(1).counts.statics == 1);
+}
+
+TEST_CASE("a plan made before the light moved is void", "[cache]") {
+    std::vector<cache::Object> const none;
+    cache::CachedMap map;
+    (void)map.plan({.width = 4, .height = 4}, none);
+    map.commit();
+    CHECK(map.state() == cache::MapState::valid);
+    map.notify(cache::MapEvent::origin_rebased);
+    CHECK(map.plan({.width = 4, .height = 4}, none).action == cache::MapAction::none);
+    map.notify(cache::MapEvent::light_posed);
+    CHECK(map.plan({.width = 4, .height = 4}, none).action == cache::MapAction::redraw);
+    CHECK(map.notify(cache::MapEvent::evicted) == cache::MapAction::release);
+    CHECK(map.plan({.width = 4, .height = 4}, none).action == cache::MapAction::none);
+    CHECK(map.notify(cache::MapEvent::requested) == cache::MapAction::place);
+    CHECK(map.notify(cache::MapEvent::granted) == cache::MapAction::redraw);
+    CHECK(map.plan({.width = 4, .height = 4}, none).reason == cache::Reason::first_use);
+}
+
+}  // namespace
