@@ -3,8 +3,6 @@
 
 #include "model.hpp"
 
-#include <string>
-
 namespace cache_model {
 
 template <class Rules>
@@ -15,10 +13,10 @@ public:
     World(std::uint64_t sequence, Fault fault, Tally& tally)
         : random_{sequence * 0x2545f4914f6cdd1dULL + 1}, fault_(fault), sequence_(sequence), tally_(tally) {
         static constexpr std::int64_t bases[] = {0, 10000 * 64, std::int64_t{1} << 40, -(std::int64_t{1} << 42)};
-        base_x_ = bases[random_.below(4)];
-        base_y_ = bases[random_.below(4)];
-        base_z_ = bases[random_.below(4)];
-        volume_ = {base_x_, base_y_, base_z_, 8, 8, 24};
+        base_.x = bases[random_.below(4)];
+        base_.y = bases[random_.below(4)];
+        base_.z = bases[random_.below(4)];
+        volume_ = {base_.x, base_.y, base_.z, 8, 8, 24};
         crowded_ = random_.one_in(8);
         for (Caster& c : all_)
             if (!random_.one_in(4)) appear(c);
@@ -130,7 +128,7 @@ private:
         } else if (kind == 9) {
             volume_.x += sign() * (volume_.width - 1);
         } else if (kind == 10 && random_.one_in(3)) {
-            volume_.x = base_x_, volume_.y = base_y_, volume_.z = base_z_;
+            volume_.x = base_.x, volume_.y = base_.y, volume_.z = base_.z;
         } else {
             volume_.y += random_.within(-9, 9);
         }
@@ -142,7 +140,7 @@ private:
         map_.notify(event);
     }
     void map_event() {
-        switch (random_.below(13)) {
+        switch (random_.below(14)) {
             case 0: tell_light(MapEvent::light_posed); break;
             case 1: tell_light(MapEvent::light_range); break;
             case 2: tell_light(MapEvent::light_cone); break;
@@ -177,13 +175,13 @@ private:
             case 10: map_.notify(MapEvent::origin_rebased); break;
             case 11: map_.notify(MapEvent::view_set_changed); break;
             case 12: map_.notify(MapEvent::moved_with_content); break;
+            case 13:  // another place, at once
+                map_.notify(MapEvent::granted);
+                garbage();
+                happened_ = true;
+                break;
             default: break;
         }
-        if (fault_ == Fault::granted_ignored) garbage_if_granted();
-    }
-    void garbage_if_granted() {
-        map_.notify(MapEvent::granted);
-        garbage();
     }
 
     void list_objects() {
@@ -282,18 +280,13 @@ private:
     Fault fault_;
     std::uint64_t sequence_;
     Tally& tally_;
-    std::int64_t base_x_ = 0;
-    std::int64_t base_y_ = 0;
-    std::int64_t base_z_ = 0;
+    Volume base_{};
     std::uint64_t epoch_ = 0;
     Volume volume_{};
     std::array<Caster, casters> all_{};
     std::vector<Object> objects_;
     cache::BasicCachedMap<Rules> map_{};
-    Image c_{};
-    Image w_{};
-    Image truth_c_{};
-    Image truth_w_{};
+    Image c_{}, w_{}, truth_c_{}, truth_w_{};
     std::uint64_t redraws_ = 0;
     std::uint64_t postponed_ = 0;
     bool crowded_ = false;
