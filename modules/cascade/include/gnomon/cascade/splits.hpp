@@ -27,6 +27,7 @@ struct SplitConfig {
     double near_m = 0.0;   ///< Where the first begins; 0: at the camera's near plane.
     double far_m = 0.0;    ///< The shadow distance; 0: the camera's far plane, which must be finite then.
     double overlap = 0.1;  ///< In [0, 1]: the part of a cascade's depth, at its end, that the next one holds too.
+    double fade = 0.0;     ///< In [0, 1]: the part of the last cascade's depth, at its end, that fades to no shadow.
     std::array<double, max_cascades> ends_m{};  ///< Of `given`: `count` of them, rising.
 };
 
@@ -34,7 +35,7 @@ struct SplitConfig {
 struct DepthInterval {
     double begin_m = 0.0;  ///< Where the blend from the cascade before begins.
     double end_m = 0.0;
-    double blend_m = 0.0;  ///< Where the blend to the next begins; the end itself for the last, or without overlap.
+    double blend_m = 0.0;  ///< Where the blend to the next begins; the end itself without overlap (the last: fade).
 
     friend bool operator==(DepthInterval const&, DepthInterval const&) noexcept = default;
 };

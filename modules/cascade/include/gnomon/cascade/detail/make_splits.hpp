@@ -31,9 +31,11 @@ namespace detail {
     if (config.count < 1 || config.count > max_cascades)
         return core::Failure{Error::bad_count, sentence({std::to_string(config.count), " cascades: need 1 to ",
                                                          std::to_string(max_cascades)})};
-    if (!(config.lambda >= 0.0 && config.lambda <= 1.0) || !(config.overlap >= 0.0 && config.overlap <= 1.0))
-        return core::Failure{Error::bad_fraction, sentence({"lambda ", text_of(config.lambda), " and overlap ",
-                                                            text_of(config.overlap), ": each must be in [0, 1]"})};
+    auto const is_part = [](double x) { return x >= 0.0 && x <= 1.0; };
+    if (!is_part(config.lambda) || !is_part(config.overlap) || !is_part(config.fade))
+        return core::Failure{Error::bad_fraction,
+                             sentence({"lambda ", text_of(config.lambda), ", overlap ", text_of(config.overlap),
+                                       " and fade ", text_of(config.fade), ": each must be in [0, 1]"})};
     double const near_m = config.near_m == 0.0 ? camera.near_m : config.near_m;
     double const last_m = config.scheme == SplitScheme::given ? config.ends_m[config.count - 1] : config.far_m;
     double const far_m = last_m == 0.0 ? camera.far_m : last_m;
@@ -81,7 +83,7 @@ inline core::Result<Splits, Error> make_splits(SplitConfig const& config, math::
                 Error::bad_range,
                 detail::sentence({"cascade ", std::to_string(k), " from ", detail::text_of(previous_m), " m to ",
                                   detail::text_of(end_m), " m: each end must lie beyond the one before"})};
-        double const blend_m = last ? end_m : end_m - config.overlap * (end_m - previous_m);
+        double const blend_m = end_m - (last ? config.fade : config.overlap) * (end_m - previous_m);
         splits.of[k] = {begin_m, end_m, blend_m};
         begin_m = blend_m;
         previous_m = end_m;
