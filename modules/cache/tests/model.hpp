@@ -97,6 +97,12 @@ inline void draw(Image& image, Caster const& c, std::uint64_t epoch) {
     });
 }
 
+inline void copy_texels(Image& to, Image const& from, cache::TexelRect const& rect) {
+    to.v = from.v;
+    for (std::int64_t y = rect.y0; y < rect.y1; ++y)
+        for (std::int64_t x = rect.x0; x < rect.x1; ++x) to.at(x - to.v.x, y - to.v.y) = from.at(x - to.v.x, y - to.v.y);
+}
+
 /// [CSM Scrolling, 4]: what comes from outside is unwritten, far stays far, near is clamped.
 inline Image scrolled(Image const& old, Volume const& to, cache::Shift const& shift, Fault fault) {
     Image out;

@@ -243,7 +243,7 @@ private:
         if (plan.action == MapAction::redraw) c_.clear(volume_);
         if (plan.action == MapAction::scroll) c_ = scrolled(c_, volume_, plan.shift, fault_);
         for (std::size_t k = 0; k < count; ++k) draw(c_, caster(plan.statics[k]), epoch_);
-        if (plan.compose != cache::Compose::keep) w_ = c_;
+        if (plan.compose != cache::Compose::keep) copy_texels(w_, c_, plan.copied);
         for (std::uint32_t const i : plan.actives) draw(w_, caster(i), epoch_);
     }
 

@@ -2,6 +2,7 @@
 // Umbrella: what of a shadow map can be kept from the last frame, what must be drawn, and why.
 
 #include <gnomon/cache/box.hpp>
+#include <gnomon/cache/budget.hpp>
 #include <gnomon/cache/cached_map.hpp>
 #include <gnomon/cache/map.hpp>
 #include <gnomon/cache/object.hpp>

@@ -83,6 +83,13 @@ struct TexelRect {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
+/// The smallest rectangle that holds both.
+[[nodiscard]] constexpr TexelRect merged(TexelRect const& a, TexelRect const& b) noexcept {
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
 /// Is every texel of `inner` one of `outer`?
 [[nodiscard]] constexpr bool contains(TexelRect const& outer, TexelRect const& inner) noexcept {
     return is_empty(inner) ||

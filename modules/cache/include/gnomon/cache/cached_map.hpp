@@ -104,14 +104,16 @@ private:
     void add_static(Query const& query, std::uint32_t i, Object const& object, Member const* member);
     void count_commit() noexcept;
     void decide(bool moved) noexcept;
+    void compose(std::span<Object const> objects) noexcept;
 
     MapState state_;
     Reason blame_ = Reason::first_use;  ///< Why it is placed or invalid.
     ObjectId blamed_{};
     bool fixed_ = false;
-    bool w_is_c_ = false;  ///< W holds C and no active object.
     Volume volume_{};
     TexelRect complete_{};
+    TexelRect w_differs_{};     ///< Where W may hold active objects.
+    bool w_has_actives_ = false;
     std::uint64_t stale_ = 0;
     History history_{};
     std::vector<Member> members_;  ///< S' by ascending ids, 72 bytes each.
@@ -119,6 +121,7 @@ private:
     std::vector<std::uint32_t> statics_;
     std::vector<std::uint32_t> actives_;
     Plan plan_{};
+    TexelRect w_will_differ_{};
     MapState planned_ = MapState::placed;
     bool has_plan_ = false;
     bool planned_fixed_ = false;

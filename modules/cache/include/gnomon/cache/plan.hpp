@@ -28,8 +28,8 @@ struct Object {
 /// How the working map W is made of C.
 enum class Compose : std::uint8_t {
     keep,           ///< W is right as it is: C was kept and no active object is or was on it.
-    copy,           ///< Copy C to W.
-    copy_and_draw,  ///< Copy C to W, draw A onto it.
+    copy,           ///< Copy C's texels of `Plan::copied` to W.
+    copy_and_draw,  ///< The same, then draw A onto it.
 };
 
 /// What an update looked at.
@@ -60,6 +60,9 @@ struct Plan {
     std::span<std::uint32_t const> statics{};  ///< Places in the span of objects, ascending: S of a redraw, else dS.
     std::span<std::uint32_t const> actives{};  ///< A, alike.
     Compose compose = Compose::keep;
+    /// What of C has to be copied, in light space and inside of V: where C changes or active objects were. A map that does
+    /// not scroll is copied whole.
+    TexelRect copied{};
     PlanCounts counts{};
 };
 

@@ -62,6 +62,7 @@ Plan const& BasicCachedMap<Rules>::make_plan(Query const& query, std::span<Objec
         plan_.shift = Rules::shift(query.before, query.now);
     }
     decide(query.moved());
+    compose(objects);
     return plan_;
 }
 
@@ -143,9 +144,21 @@ void BasicCachedMap<Rules>::decide(bool moved) noexcept {
         plan_.action = MapAction::scroll;
         plan_.reason = Reason::volume_moved;
     }
-    bool const w_stays = plan_.action == MapAction::none && w_is_c_;
+}
+
+template <class Rules>
+void BasicCachedMap<Rules>::compose(std::span<Object const> objects) noexcept {
+    TexelRect const all = rect_of(plan_.volume);
+    auto const bounds = [&](std::span<std::uint32_t const> list) {
+        TexelRect rect{};
+        for (std::uint32_t const i : list) rect = merged(rect, intersection(rect_of(objects[i].box), all));
+        return rect;
+    };
+    bool const stays = plan_.action == MapAction::none || plan_.action == MapAction::add;
+    plan_.copied = stays ? merged(w_differs_, bounds(statics_)) : all;
+    w_will_differ_ = bounds(actives_);
     if (!actives_.empty()) plan_.compose = Compose::copy_and_draw;
-    else plan_.compose = w_stays ? Compose::keep : Compose::copy;
+    else if (plan_.action != MapAction::none || w_has_actives_) plan_.compose = Compose::copy;
 }
 
 template <class Rules>
@@ -172,7 +185,8 @@ void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
     state_ = Rules::step(planned_, whole ? MapEvent::drawn_wholly : MapEvent::drawn_partly).next;
     volume_ = plan_.volume;
     fixed_ = planned_fixed_;
-    w_is_c_ = plan_.actives.empty();
+    w_differs_ = w_will_differ_;
+    w_has_actives_ = !plan_.actives.empty();
     stale_ = whole ? 0 : stale_ + 1;
     has_plan_ = false;
     count_commit();
