@@ -2,6 +2,7 @@
 
 #include <gnomon/check/check.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ void check_tally(cache_model::Tally const& t) {
     CHECK(t.wrong_part == 0);
     CHECK(t.wrong_books == 0);
     CHECK(t.needless == 0);
+    CHECK(t.wrong_near == 0);
+    CHECK(t.near_clamped > t.frames / 50);
     CHECK(adds_up(t.history));
     CHECK(t.compared > t.frames / 2);
     CHECK(t.partial > t.frames / 50);
@@ -41,7 +44,7 @@ void check_tally(cache_model::Tally const& t) {
 }
 
 TEST_CASE("random sequences of events leave every map as it is drawn from nothing", "[cache][property]") {
-    check_tally(run_sequences<cache::detail::Rules>(0, 20000, Fault::none, false));
+    check_tally(run_sequences<cache::detail::Rules>(0, 100000, Fault::none, false));
 }
 
 TEST_CASE("a million random sequences leave every map as it is drawn from nothing", "[cache][property][.full]") {
@@ -181,6 +184,57 @@ TEST_CASE("a spot's map is drawn again for a changed member only, and each face 
     CHECK(update(0).action == cache::MapAction::redraw);
     CHECK(update(1).reason == cache::Reason::member_deformed);
     CHECK(update(1).counts.statics == 1);
+}
+
+TEST_CASE("an origin rebase keeps the cache", "[cache][property]") {
+    auto const shift = array_of<3>(integers(-20000000, 20000000));
+    for_all(cases(300), shift, array_of<3>(floats(-1000.0, 1000.0)), array_of<3>(floats(0.0, 30.0)), [](auto const& by, auto const& at, auto const& size) {
+        // positions as a world holds them: whole 2^-20 m near 1e7 m
+        auto const held = [](double x) { return std::floor(x * 0x1p20) * 0x1p-20; };
+        math::dvec3 const anchor(1e7, -3e6, 17.0);
+        math::dvec3 const low = math::dvec3(held(at[0]), held(at[1]), held(at[2])) + anchor;
+        math::dvec3 const high = low + math::dvec3(held(size[0]), held(size[1]), held(size[2]));
+        math::dvec3 const move(by[0], by[1], by[2]);
+        cache::LightUnits const light{{0.6, 0.0, 0.8}, {0.0, -1.0, 0.0}, {-0.8, 0.0, 0.6}, 0.03125, 0.001};
+        cache::Volume const v{.x = -100000, .y = -100000, .z = -2000000, .width = 200000, .height = 200000, .far_code = 1 << 24};
+        cache::CachedMap map;
+        auto const update = [&](math::dvec3 const& to) {
+            auto const box = cache::enclose(light, (low + to) - (anchor + to), (high + to) - (anchor + to));
+            std::vector<cache::Object> const objects{static_object(1, box.value_or(cache::Box{}))};
+            auto const action = map.plan(v, objects).action;
+            map.commit();
+            return action;
+        };
+        CHECK(update({0.0, 0.0, 0.0}) == cache::MapAction::redraw);
+        map.notify(cache::MapEvent::origin_rebased);
+        CHECK(update(move) == cache::MapAction::none);
+        CHECK(map.member_count() == 1);
+    });
+}
+
+TEST_CASE("an object hidden by one that is not drawn yet is not forgotten", "[cache]") {
+    cache::Volume const v{.width = 16, .height = 16};
+    std::vector<cache::Object> objects{static_object(1, {0, 0, 9, 4, 4, 9}), static_object(2, {0, 0, 2, 8, 8, 3})};
+    objects[1].state = cache::ObjectState::active;
+    cache::CachedMap map;
+    (void)map.plan(v, objects);
+    map.commit();
+    objects[1].state = cache::ObjectState::static_;  // rests before the first one, but there is no time to draw it to C
+    auto const first = [](std::uint32_t i) { return i == 0; };
+    CHECK(map.plan(v, objects, first).statics.size() == 1);
+    map.commit_part(0);
+    CHECK(map.state() == cache::MapState::partial);
+    objects[1].state = cache::ObjectState::active;
+    CHECK(map.plan(v, objects, first).action == cache::MapAction::none);
+    map.postpone();
+    objects[0].revision = 2;  // C still shows the first one
+    CHECK(map.plan(v, objects).action == cache::MapAction::redraw);
+    map.commit();
+    objects[1].state = cache::ObjectState::static_;
+    (void)map.plan(v, objects, first);
+    map.commit();
+    objects[0].revision = 3;  // now nothing of it can be seen
+    CHECK(map.plan(v, objects, first).action == cache::MapAction::none);
 }
 
 TEST_CASE("a plan made before the light moved is void", "[cache]") {

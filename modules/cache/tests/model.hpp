@@ -57,6 +57,8 @@ struct Tally {
     std::uint64_t wrong_part = 0;
     std::uint64_t needless = 0;  ///< Frames without any event in which something was drawn to C.
     std::uint64_t wrong_books = 0;
+    std::uint64_t near_clamped = 0;  ///< Texels of an eighth of the sequences that a redraw with clipping has otherwise.
+    std::uint64_t wrong_near = 0;    ///< Of them those that are not code 0.
     cache::History history{};
     std::uint64_t first_wrong = ~std::uint64_t{0};
 
@@ -81,18 +83,19 @@ inline bool depth_at(Caster const& c, std::uint64_t epoch, std::int64_t x, std::
     return h % 8 != 0;
 }
 
+/// f(column, row, code, whether the depth lies before the near plane)
 template <class F>
 void for_texels(Caster const& c, std::uint64_t epoch, Volume const& v, F const& f) {
     if (!c.there) return;
     for (std::int64_t y = std::max(c.box.y0, v.y); y < std::min(c.box.y1, v.y + v.height); ++y)
         for (std::int64_t x = std::max(c.box.x0, v.x); x < std::min(c.box.x1, v.x + v.width); ++x) {
             std::int64_t depth = 0;
-            if (depth_at(c, epoch, x, y, depth)) f(x - v.x, y - v.y, std::clamp<std::int64_t>(depth - v.z, 0, v.far_code));
+            if (depth_at(c, epoch, x, y, depth)) f(x - v.x, y - v.y, std::clamp<std::int64_t>(depth - v.z, 0, v.far_code), depth < v.z);
         }
 }
 
 inline void draw(Image& image, Caster const& c, std::uint64_t epoch) {
-    for_texels(c, epoch, image.v, [&](std::int64_t i, std::int64_t j, std::int64_t code) {
+    for_texels(c, epoch, image.v, [&](std::int64_t i, std::int64_t j, std::int64_t code, bool) {
         image.at(i, j) = std::min(image.at(i, j), static_cast<std::int32_t>(code));
     });
 }

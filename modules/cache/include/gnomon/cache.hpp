@@ -6,5 +6,6 @@
 #include <gnomon/cache/cached_map.hpp>
 #include <gnomon/cache/map.hpp>
 #include <gnomon/cache/object.hpp>
+#include <gnomon/cache/object_table.hpp>
 #include <gnomon/cache/plan.hpp>
 #include <gnomon/cache/reason.hpp>

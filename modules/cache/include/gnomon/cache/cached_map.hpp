@@ -116,7 +116,7 @@ private:
     bool w_has_actives_ = false;
     std::uint64_t stale_ = 0;
     History history_{};
-    std::vector<Member> members_;  ///< S' by ascending ids, 72 bytes each.
+    std::vector<Member> members_;  ///< S' by ascending ids, 64 bytes each.
     std::vector<Member> next_;     ///< S of the plan.
     std::vector<std::uint32_t> statics_;
     std::vector<std::uint32_t> actives_;

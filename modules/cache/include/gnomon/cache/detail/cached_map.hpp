@@ -164,7 +164,9 @@ void BasicCachedMap<Rules>::compose(std::span<Object const> objects) noexcept {
 template <class Rules>
 void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
     GNOMON_EXPECT(has_plan_ && drawn <= plan_.statics.size());
-    if (!has_plan_ || !has_memory()) return;
+    bool const due = has_plan_ && has_memory();
+    has_plan_ = false;
+    if (!due) return;
     bool const whole = drawn >= plan_.statics.size();
     bool const redrawn = plan_.action == MapAction::redraw;
     TexelRect const all = rect_of(plan_.volume);
@@ -188,7 +190,6 @@ void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
     w_differs_ = w_will_differ_;
     w_has_actives_ = !plan_.actives.empty();
     stale_ = whole ? 0 : stale_ + 1;
-    has_plan_ = false;
     count_commit();
 }
 
@@ -208,7 +209,9 @@ void BasicCachedMap<Rules>::count_commit() noexcept {
 template <class Rules>
 void BasicCachedMap<Rules>::postpone() noexcept {
     GNOMON_EXPECT(has_plan_);
-    if (!has_plan_ || !has_memory()) return;
+    bool const due = has_plan_ && has_memory();
+    has_plan_ = false;
+    if (!due) return;
     if (plan_.action == MapAction::redraw) {
         state_ = Rules::step(planned_, MapEvent::postponed).next;
         blame_ = plan_.reason;
@@ -216,7 +219,6 @@ void BasicCachedMap<Rules>::postpone() noexcept {
     }
     if (plan_.action != MapAction::none || plan_.compose != Compose::keep) ++stale_;
     ++history_.postponed;
-    has_plan_ = false;
 }
 
 }  // namespace gnomon::cache

@@ -18,6 +18,8 @@ struct Member {
     bool ghost = false;   ///< Occluded now, but what hides it is perhaps not drawn yet.
 };
 
+static_assert(sizeof(Member) == 64 && sizeof(Object) == 64);
+
 struct Rules {
     /// Is the object in the volume? No end toward the light.
     [[nodiscard]] static constexpr bool in_volume(Box const& box, Volume const& v) noexcept { return may_touch(box, v); }
