@@ -386,6 +386,106 @@ TEST_CASE("what cannot be placed is refused with its value", "[cascades][errors]
     CHECK(refusal([&](CascadeConfig&, math::View& v) { v.eye_m.x = 1e7; }) == "placed");
 }
 
+/// Any bits at all in every number of a configuration and a camera.
+auto hostile() {
+    return [](Choices& choices) {
+        auto const any = [&] {
+            auto const wild = any_float<double>().with_nan().with_inf();
+            return choices.draw(3) == 0 ? element_of({0.0, 1.0, 1e300, 1e-300, 1e7, 0x1p60})(choices) : wild(choices);
+        };
+        auto const mostly = [&](double x) { return choices.draw(7) != 7 ? x : any(); };
+        auto const vector = [&](double x, double y, double z) {
+            double const a = mostly(x);
+            double const b = mostly(y);
+            double const c = mostly(z);
+            return math::dvec3(a, b, c);
+        };
+        Scenario s;
+        s.camera = camera_at(math::dvec3(0.0), {0.0, 0.0, -1.0});
+        s.camera.eye_m = vector(1.0, 2.0, 3.0);
+        s.camera.right = vector(1.0, 0.0, 0.0);
+        s.camera.window.left = mostly(-1.0);
+        s.camera.window.top = mostly(1.0);
+        s.camera.near_m = mostly(0.1);
+        s.config.direction = vector(0.3, -1.0, 0.2);
+        s.config.up = vector(0.0, 1.0, 0.0);
+        s.config.anchor_m = vector(0.0, 0.0, 0.0);
+        s.config.splits.far_m = mostly(200.0);
+        s.config.splits.lambda = mostly(0.5);
+        s.config.splits.count = choices.draw(7) != 7 ? 4 : static_cast<std::uint32_t>(choices.draw(0xFFFFFFFF));
+        auto const number = [&](int x) {
+            return choices.draw(15) != 15
+                       ? x
+                       : static_cast<std::int32_t>(static_cast<std::uint32_t>(choices.draw(0xFFFFFFFF)));
+        };
+        s.config.fit.size_px = number(512);
+        s.config.fit.guard_px = number(8);
+        s.config.fit.filter_px = number(2);
+        s.config.fit.texel_steps = static_cast<std::uint32_t>(number(8));
+        s.config.fit.hold = mostly(0.1);
+        s.config.fit.depth.codes = number(65535);
+        s.config.fit.depth.length_m = mostly(1000.0);
+        s.config.fit.depth.guard_m = mostly(50.0);
+        if (choices.draw(3) == 3) s.config.fit.depth.range = DepthRange::scene_bounds;
+        s.config.fit.depth.scene_lo_m = vector(-1.0, -1.0, -1.0);
+        s.config.fit.depth.scene_hi_m = vector(9.0, 9.0, 9.0);
+        s.config.fit.extent = choices.draw(1) != 0 ? Extent::sphere : Extent::diameter;
+        return s;
+    };
+}
+
+TEST_CASE("any numbers are refused, or give places within reach and units that are lengths", "[cascades][errors]") {
+    int placed = 0;
+    for_all(cases(4000), hostile(), [&](Scenario const& s) {
+        Cascades state;
+        auto frame = cascade::plan(state, s.config, s.camera);
+        if (!frame) {
+            CHECK(!frame.failure().message.empty());
+            return;
+        }
+        ++placed;
+        cascade::commit(state, *frame);
+        auto const again = cascade::plan(state, s.config, s.camera);
+        REQUIRE(again);
+        for (std::uint32_t k = 0; k < frame->count; ++k) {
+            Volume const& v = frame->cascades[k].volume;
+            CHECK((v.texel_m > 0.0 && v.texel_m < 1e13 && v.depth_unit_m > 0.0 && v.depth_unit_m < 1e13));
+            for (std::int64_t const n : {v.at.x, v.at.y, v.at.z})
+                CHECK((n < 2 * cascade::max_light_units && n > -2 * cascade::max_light_units));
+            CHECK(again->cascades[k].update.action == Action::keep);
+        }
+    });
+    CHECK((placed > 200 && placed < 3800));
+}
+
+TEST_CASE("culling planes keep what may cast, and little else", "[cascades][cull]") {
+    int kept = 0;
+    int left_out = 0;
+    for_all(cases(1500), math::points(), math::boxes(), math::directions(),
+            [&](math::vec3 const& eye, math::Aabb const& box, math::dvec3 const& way) {
+                CascadeConfig config = ordinary();
+                config.direction = way;
+                math::dvec3 const eye_m = math::to_double(eye);
+                auto const frame = cascade::plan(Cascades{}, config, camera_at(eye_m, {0.0, 0.1, -1.0}));
+                if (!frame) return;
+                Volume const& v = frame->cascades[3].volume;
+                auto const planes = cascade::culling_planes(frame->light, v, frame->anchor_m, eye_m);
+                auto const in_light = cascade::try_box_in_light(frame->light, v, box, eye_m - frame->anchor_m);
+                if (!in_light) return;
+                bool outside = false;
+                for (math::Plane const& plane : planes) outside = outside || math::surely_outside(plane, box);
+                // The box as it is, without the slack of what is drawn.
+                cascade::LightBox const core{in_light->x0 + 1, in_light->y0 + 1, in_light->z0 + 1,
+                                             in_light->x1 - 1, in_light->y1 - 1, in_light->z1 - 2};
+                if (cascade::may_cast(v, core)) CHECK_FALSE(outside);
+                cascade::LightBox const wide{in_light->x0 - 3, in_light->y0 - 3, in_light->z0 - 3,
+                                             in_light->x1 + 3, in_light->y1 + 3, in_light->z1 + 3};
+                if (!cascade::may_cast(v, wide)) CHECK(outside);
+                (outside ? left_out : kept) += 1;
+            });
+    CHECK((kept > 20 && left_out > 100));
+}
+
 TEST_CASE("the view of a placed map puts light-space units on its texels and codes", "[cascades][view]") {
     for_all(cases(200), math::points(), math::directions(), booleans(),
             [](math::vec3 const& eye, math::dvec3 const& way, bool reversed) {

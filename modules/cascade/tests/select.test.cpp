@@ -52,6 +52,10 @@ TEST_CASE("the cascade by depth is the first that ends beyond it, and the blend 
         CHECK((chosen.blend >= 0.0F && chosen.blend <= 1.0F));
     });
     CascadeDepths const depths = cascade::cascade_depths(some_frame(math::dvec3(0.0), {0.0, 0.0, -1.0}));
+    for (std::uint32_t k = 0; k < depths.count; ++k) {
+        CHECK(cascade::choose_by_depth(depths, depths.end_m[k]).cascade == k + 1);
+        CHECK(cascade::choose_by_depth(depths, math::next_down(depths.end_m[k])).cascade == k);
+    }
     CHECK(cascade::choose_by_depth(depths, std::numeric_limits<float>::quiet_NaN()) == CascadeChoice{0, 1, 0.0F});
     CHECK(cascade::choose_by_depth(depths, std::numeric_limits<float>::infinity()) == CascadeChoice{4, 4, 0.0F});
 }

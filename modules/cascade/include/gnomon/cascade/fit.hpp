@@ -69,7 +69,7 @@ struct FitConfig {
 /// The depth unit of a map, and for `scene_bounds` also where its code 0 stands.
 struct DepthFit {
     double unit_m;
-    std::int64_t z = 0;
+    std::int64_t z = 0;      ///< Of `scene_bounds`: where code 0 stands; `max_light_units` where that is too far.
     std::int64_t reach = 0;  ///< Of `fixed_length`: units behind the sub-frustum's middle that must be held.
     std::int64_t guard = 0;  ///< Of `fixed_length`: whole units.
 };

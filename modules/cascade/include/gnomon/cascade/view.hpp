@@ -2,6 +2,7 @@
 // A placed volume as an ordinary orthographic view: matrices for hardware, and for lookups.
 
 #include <gnomon/cascade/cascades.hpp>
+#include <gnomon/math/plane.hpp>
 
 namespace gnomon::cascade {
 
@@ -38,6 +39,31 @@ namespace gnomon::cascade {
     view.near_m = static_cast<double>(v.at.z) * v.depth_unit_m - eye.z;
     view.far_m = view.near_m + static_cast<double>(v.codes) * v.depth_unit_m;
     return view;
+}
+
+/// The volume in which casters are looked for, as half-spaces for positions relative to `origin_m`: the map's four
+/// sides and its far end, one unit farther out than the map. No plane bounds it toward the light: see `may_cast`, which
+/// asks the same of boxes in whole units.
+///
+/// expects: a volume of `light` about `anchor_m`.
+/// returns: what is right of the left side, left of the right side, below the top, above the bottom, before the far
+/// end; of what a triangle can cover in the map, nothing is outside
+[[nodiscard]] inline std::array<math::Plane, 5> culling_planes(LightFrame const& light, Volume const& v,
+                                                               math::dvec3 const& anchor_m,
+                                                               math::dvec3 const& origin_m) noexcept {
+    math::dvec3 const origin = light_from_relative(light, origin_m - anchor_m);
+    auto const begin = [](std::int64_t first, double unit_m, double at) {
+        return at - static_cast<double>(first - 1) * unit_m;
+    };
+    auto const end = [](std::int64_t last, double unit_m, double at) {
+        return static_cast<double>(last + 1) * unit_m - at;
+    };
+    LightBox const box = box_of(v);
+    return {math::Plane{light.right, begin(box.x0, v.texel_m, origin.x)},
+            math::Plane{-light.right, end(box.x1, v.texel_m, origin.x)},
+            math::Plane{light.down, begin(box.y0, v.texel_m, origin.y)},
+            math::Plane{-light.down, end(box.y1, v.texel_m, origin.y)},
+            math::Plane{-light.away, end(box.z1, v.depth_unit_m, origin.z)}};
 }
 
 /// Seen from its middle.

@@ -18,9 +18,13 @@ namespace detail {
                              sentence({"a depth of ", text_of(d.length_m), " m with a guard of ", text_of(d.guard_m),
                                        " m: need a length of 1e-6 to 1e12 and a guard of 0 to 1e12"})};
     if (d.range != DepthRange::scene_bounds) return core::Done{};
-    if (!math::is_finite(d.scene_lo_m) || !math::is_finite(d.scene_hi_m))
-        return core::Failure{Error::not_finite, sentence({"the scene's bounds ", text_of(d.scene_lo_m), " to ",
-                                                          text_of(d.scene_hi_m), " are not finite"})};
+    auto const within = [](math::dvec3 const& p) {
+        return std::abs(p.x) <= longest && std::abs(p.y) <= longest && std::abs(p.z) <= longest;  // false for a NaN
+    };
+    if (!within(d.scene_lo_m) || !within(d.scene_hi_m))
+        return core::Failure{Error::not_finite,
+                             sentence({"the scene's bounds ", text_of(d.scene_lo_m), " to ", text_of(d.scene_hi_m),
+                                       " must lie within 1e12 m of the anchor"})};
     if (!(d.scene_lo_m.x <= d.scene_hi_m.x && d.scene_lo_m.y <= d.scene_hi_m.y && d.scene_lo_m.z <= d.scene_hi_m.z))
         return core::Failure{Error::bad_depth, sentence({"the scene's bounds ", text_of(d.scene_lo_m), " to ",
                                                          text_of(d.scene_hi_m), " hold nothing"})};
@@ -55,19 +59,22 @@ inline DepthFit fit_depth(DepthConfig const& config, LightFrame const& light, do
     if (config.range == DepthRange::scene_bounds) {
         double lo = std::numeric_limits<double>::infinity();
         double hi = -lo;
+        double farthest_m = 0.0;
         for (unsigned i = 0; i < 8; ++i) {
             math::dvec3 const corner((i & 1U) != 0 ? config.scene_hi_m.x : config.scene_lo_m.x,
                                      (i & 2U) != 0 ? config.scene_hi_m.y : config.scene_lo_m.y,
                                      (i & 4U) != 0 ? config.scene_hi_m.z : config.scene_lo_m.z);
             double const depth_m = along(light.away, corner);
+            double const sum = (std::abs(corner.x) + std::abs(corner.y)) + std::abs(corner.z);
+            farthest_m = sum > farthest_m ? sum : farthest_m;
             lo = depth_m < lo ? depth_m : lo;
             hi = depth_m > hi ? depth_m : hi;
         }
         double const span_m = hi - lo > 1.0 ? hi - lo : 1.0;  // a flat scene gets a metre
         fit.unit_m = detail::quantized_up(span_m * (1.0 + 0x1p-20) / room, steps);
         double const first = std::floor(lo / fit.unit_m);
-        constexpr double most = static_cast<double>(max_light_units);
-        fit.z = first > -most && first < most ? static_cast<std::int64_t>(first) - 2 : max_light_units;
+        bool const near = farthest_m / fit.unit_m < static_cast<double>(max_light_units);
+        fit.z = near ? static_cast<std::int64_t>(first) - 2 : max_light_units;
         return fit;
     }
     double const given_m = config.length_m / static_cast<double>(config.codes);
