@@ -101,9 +101,10 @@ inline void draw(Image& image, Caster const& c, std::uint64_t epoch) {
 }
 
 inline void copy_texels(Image& to, Image const& from, cache::TexelRect const& rect) {
+    auto const inside = cache::intersection(rect, cache::rect_of(from.v));  // faulty rules may ask for more
     to.v = from.v;
-    for (std::int64_t y = rect.y0; y < rect.y1; ++y)
-        for (std::int64_t x = rect.x0; x < rect.x1; ++x) to.at(x - to.v.x, y - to.v.y) = from.at(x - to.v.x, y - to.v.y);
+    for (std::int64_t y = inside.y0; y < inside.y1; ++y)
+        for (std::int64_t x = inside.x0; x < inside.x1; ++x) to.at(x - to.v.x, y - to.v.y) = from.at(x - to.v.x, y - to.v.y);
 }
 
 /// [CSM Scrolling, 4]: what comes from outside is unwritten, far stays far, near is clamped.

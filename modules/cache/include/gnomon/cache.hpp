@@ -4,6 +4,7 @@
 #include <gnomon/cache/box.hpp>
 #include <gnomon/cache/budget.hpp>
 #include <gnomon/cache/cached_map.hpp>
+#include <gnomon/cache/light_bounds.hpp>
 #include <gnomon/cache/map.hpp>
 #include <gnomon/cache/object.hpp>
 #include <gnomon/cache/object_table.hpp>
