@@ -137,6 +137,16 @@ Result<SampleQueries*> Backend::State::counting() {
     return &*queries;
 }
 
+Result<OrthoPipelines*> Backend::State::ortho() {
+    if (ortho_pipelines) return &*ortho_pipelines;
+    auto shared = passes();
+    if (!shared) return std::move(shared).failure();
+    auto made = OrthoPipelines::make(*shared);
+    if (!made) return std::move(made).failure();
+    ortho_pipelines.emplace(*std::move(made));
+    return &*ortho_pipelines;
+}
+
 Result<HostSlice> Backend::State::take_read(std::span<std::byte> out) {
     auto slice = downloads.take(out.size());
     if (!slice) return slice;

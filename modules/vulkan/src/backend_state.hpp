@@ -7,6 +7,7 @@
 #include <gnomon/backend/slots.hpp>
 #include <gnomon/vulkan/barrier.hpp>
 #include <gnomon/vulkan/kernel.hpp>
+#include <gnomon/vulkan/ortho.hpp>
 #include <gnomon/vulkan/pass.hpp>
 #include <gnomon/vulkan/queries.hpp>
 #include <gnomon/vulkan/read_back.hpp>
@@ -77,6 +78,8 @@ struct Backend::State {
     [[nodiscard]] Result<PassPipelinesRef> passes();
     /// Made when the first samples are counted.
     [[nodiscard]] Result<SampleQueries*> counting();
+    /// Made when the first pass in whole units is drawn.
+    [[nodiscard]] Result<OrthoPipelines*> ortho();
     /// A slice to read back into, and the promise to do so.
     [[nodiscard]] Result<HostSlice> take_read(std::span<std::byte> out);
     /// Destroyed at once where nothing is recorded, else when the frame has finished.
@@ -99,6 +102,7 @@ struct Backend::State {
 
     PassPipelinesRef pass_pipelines;
     std::optional<SampleQueries> queries;
+    std::optional<OrthoPipelines> ortho_pipelines;
     backend::Slots<backend::DrawListId, DrawList> lists;
     backend::Slots<backend::TargetId, Target> targets;
     backend::Slots<backend::BufferId, KeptBuffer> buffers;

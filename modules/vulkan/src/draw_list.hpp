@@ -81,6 +81,7 @@ struct DrawList::State {
     std::vector<detail::GroupTriangles> groups;
     std::vector<math::mat4> instances;  ///< On the host where the device has no doubles.
     std::uint32_t instanced = 0;        ///< Number of instances that have a matrix.
+    bool has_instances = false;         ///< Or a span of none.
     std::uint64_t triangles = 0;
     StagedFaults faults;
     std::uint32_t next_slot = 0;

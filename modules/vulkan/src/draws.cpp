@@ -236,6 +236,7 @@ Result<DrawList> make_draw_list(PassPipelinesRef const& pipelines, std::span<bac
     state->pipelines = pipelines;
     state->config = config;
     state->instanced = static_cast<std::uint32_t>(staged->instances.size());
+    state->has_instances = std::any_of(draws.begin(), draws.end(), [](backend::Draw const& d) { return d.instances.is_set(); });
     make_orders(*state, staged->commands);
     Layout layout;
     lay_out(*state, layout, *staged);

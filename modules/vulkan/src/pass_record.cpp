@@ -23,6 +23,22 @@ void wait_for_readers(DrawList::State const& list, VkCommandBuffer commands) {
                    {compute_stage | copy_stage, writes});
 }
 
+/// returns: the slot's dynamic offset.
+std::uint32_t write_slot(VkCommandBuffer commands, DrawList::State& list, std::span<std::byte const> bytes) {
+    wait_for_readers(list, commands);
+    std::uint32_t const offset = list.next_slot * static_cast<std::uint32_t>(view_slot_bytes);
+    list.next_slot = (list.next_slot + 1) % view_slots;
+    list.pipelines->gpu()->call.CmdUpdateBuffer(commands, list.changing.handle.get(), offset, bytes.size(), bytes.data());
+    return offset;
+}
+
+void show_to_draws(VkCommandBuffer commands, DrawList::State const& list) {
+    record_barrier(*list.pipelines->gpu(), commands,
+                   {copy_stage | compute_stage,
+                    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                   {draw_stages, VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
+}
+
 /// One thread a column, by the device.
 void make_matrices_there(VkCommandBuffer commands, DrawList::State const& list, Chunk const& chunk,
                          std::uint32_t offset) {
@@ -69,24 +85,22 @@ void make_matrices_here(VkCommandBuffer commands, DrawList::State const& list, C
 }  // namespace
 
 std::uint32_t record_views(VkCommandBuffer commands, DrawList::State& list, Chunk const& chunk) {
-    Gpu const& gpu = *list.pipelines->gpu();
-    wait_for_readers(list, commands);
-    std::uint32_t const offset = list.next_slot * static_cast<std::uint32_t>(view_slot_bytes);
-    list.next_slot = (list.next_slot + 1) % view_slots;
     std::array<ViewData, max_views> views;
     for (std::uint32_t i = 0; i < chunk.view_count; ++i) views[i] = view_data(*chunk.views[i]);
-    gpu.call.CmdUpdateBuffer(commands, list.changing.handle.get(), offset, chunk.view_count * sizeof(ViewData),
-                             views.data());
+    std::uint32_t const offset = write_slot(commands, list, std::as_bytes(std::span(views).first(chunk.view_count)));
     if (list.instanced != 0) {
         if (list.pipelines->instances() != VK_NULL_HANDLE)
             make_matrices_there(commands, list, chunk, offset);
         else
             make_matrices_here(commands, list, chunk);
     }
-    record_barrier(gpu, commands,
-                   {copy_stage | compute_stage,
-                    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
-                   {draw_stages, VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT});
+    show_to_draws(commands, list);
+    return offset;
+}
+
+std::uint32_t record_slot(VkCommandBuffer commands, DrawList::State& list, std::span<std::byte const> bytes) {
+    std::uint32_t const offset = write_slot(commands, list, bytes);
+    show_to_draws(commands, list);
     return offset;
 }
 

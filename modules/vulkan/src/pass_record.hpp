@@ -15,6 +15,12 @@ namespace gnomon::vulkan::detail {
 /// returns: the slot's dynamic offset.
 std::uint32_t record_views(VkCommandBuffer commands, DrawList::State& list, Chunk const& chunk);
 
+/// Writes what a pass of its own kind has in place of views into the list's next slot, for a list without instances.
+///
+/// expects: at most `view_slot_bytes`, a multiple of 4.
+/// returns: the slot's dynamic offset.
+std::uint32_t record_slot(VkCommandBuffer commands, DrawList::State& list, std::span<std::byte const> bytes);
+
 /// Which images a rendering has, and what it begins with.
 struct Rendering {
     VkImageView depth = VK_NULL_HANDLE;

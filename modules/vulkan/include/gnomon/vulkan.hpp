@@ -13,6 +13,7 @@
 #include <gnomon/vulkan/functions.hpp>
 #include <gnomon/vulkan/gpu.hpp>
 #include <gnomon/vulkan/kernel.hpp>
+#include <gnomon/vulkan/ortho.hpp>
 #include <gnomon/vulkan/pass.hpp>
 #include <gnomon/vulkan/pass_pipelines.hpp>
 #include <gnomon/vulkan/queries.hpp>
