@@ -135,62 +135,73 @@ OrthoView random_view(Random& random, backend::TargetConfig const& config, doubl
     return view;
 }
 
-void add_triangle(Soup& soup, Random& random, OrthoView const& view, std::uint64_t kind) {
-    auto const in = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random.next() >> 11U) * 0x1p-53); };
-    double const width = view.size_px.x;
-    double const height = view.size_px.y;
-    struct Point {
-        double x, y, code;
-    };
-    auto const anywhere = [&](double margin) {
-        double const x = in(-margin, width + margin);
-        double const y = in(-margin, height + margin);
+namespace {
+
+struct Point {
+    double x, y, code;
+};
+
+/// Points at random about a view's image.
+struct Points {
+    Random& random;
+    OrthoView const& view;
+
+    double in(double low, double high) { return low + (high - low) * (static_cast<double>(random.next() >> 11U) * 0x1p-53); }
+    Point anywhere(double margin) {
+        double const x = in(-margin, view.size_px.x + margin);
+        double const y = in(-margin, view.size_px.y + margin);
         double const code = in(-0.05, 1.05) * view.last_code;
-        return Point{x, y, code};
-    };
-    Point const a = anywhere(2.0);
-    auto const close = [&](double most) {
+        return {x, y, code};
+    }
+    Point close_to(Point const& a, double most) {
         double const x = a.x + in(-most, most);
         double const y = a.y + in(-most, most);
         double const code = in(-0.05, 1.05) * view.last_code;
-        return Point{x, y, code};
-    };
-    Point t[3] = {a, close(20.0), close(20.0)};
-    auto const set_rest = [&](auto&& make) {
-        t[1] = make();
-        t[2] = make();
-    };
-    switch (kind % ortho_kinds) {
-        case 0: set_rest([&] { return anywhere(2.0); }); break;
-        case 1: set_rest([&] { return close(1.5); }); break;
-        case 2: set_rest([&] { return anywhere(900.0); }); break;      // the device's
-        case 3: set_rest([&] { return anywhere(60'000.0); }); break;   // out of its reach
-        case 4: set_rest([&] { return anywhere(4e6); }); break;        // 128 bits
-        case 5: set_rest([&] { return anywhere(1e9); }); break;
-        case 6:                                                         // slivers
-            t[1] = anywhere(random.next() % 2 == 0 ? 200.0 : 9'000.0);
-            t[2] = close(0.02);
+        return {x, y, code};
+    }
+};
+
+/// By kind, how far from the image the second and third corner may be.
+constexpr double margins_px[] = {
+    2.0, 30.0,
+    900.0,     // the device's
+    1'100.0,   // some the device's, some not
+    8'300.0,   // about the edge of the reach
+    60'000.0,  // out of it
+    4e6,       // 128 bits
+    1e9,
+};
+
+void shape(Point (&t)[3], Points& points, std::uint64_t kind) {
+    t[0] = points.anywhere(2.0);
+    for (std::size_t i = 1; i < 3; ++i) t[i] = kind < std::size(margins_px) ? points.anywhere(margins_px[kind]) : points.close_to(t[0], 20.0);
+    switch (kind) {
+        case 1: t[1] = points.close_to(t[0], 1.5), t[2] = points.close_to(t[0], 1.5); break;
+        case 8:  // slivers
+            t[1] = points.anywhere(points.random.next() % 2 == 0 ? 200.0 : 1e6);
+            t[2] = points.close_to(t[0], 0.02);
             break;
-        case 7:                                                         // slivers out of reach
-            t[1] = anywhere(1e6);
-            t[2] = close(0.02);
-            break;
-        case 8: {                                                       // corners on centres: the tie rule
+        case 9:  // corners on centres: the tie rule
             for (Point& p : t) {
-                p.x = std::floor(in(-3.0, width + 3.0)) + 0.5;
-                p.y = std::floor(in(-3.0, height + 3.0)) + 0.5;
+                p.x = std::floor(p.x) + 0.5;
+                p.y = std::floor(p.y) + 0.5;
                 p.code = std::floor(p.code) + 0.5;
             }
             break;
-        }
-        case 9: t[2] = {(t[0].x + t[1].x) * 0.5, (t[0].y + t[1].y) * 0.5, t[1].code}; break;  // about no area
-        case 10:                                                        // steep
-            for (Point& p : t) p.code = in(-2e6, 2e6) * view.last_code;
+        case 10: t[2] = {(t[0].x + t[1].x) * 0.5, (t[0].y + t[1].y) * 0.5, t[1].code}; break;  // about no area
+        case 11:                                                                              // steep
+            for (Point& p : t) p.code = points.in(-2e6, 2e6) * points.view.last_code;
             break;
-        default:                                                        // some the device's, some not
-            set_rest([&] { return anywhere(random.next() % 2 == 0 ? 1'100.0 : 8'300.0); });
-            break;
+        default: break;
     }
+}
+
+}  // namespace
+
+void add_triangle(Soup& soup, Random& random, OrthoView const& view, std::uint64_t kind) {
+    Points points{random, view};
+    Point t[3];
+    shape(t, points, kind % ortho_kinds);
     for (Point const& p : t) {
         soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
         soup.positions.push_back(view.position(p.x, p.y, p.code));
