@@ -30,37 +30,60 @@ struct ScrollKernel {
         return std::max(std::min(size_px - shift, size_px), 0);
     }
 
-    [[nodiscard]] Number value(T held) const noexcept {
-        if constexpr (is_code)
-            return gn_scrolled_code(formula::Int<float>(std::int32_t{held}), add, last, reversed).v;
-        else
-            return gn_scrolled(formula::Float<float>(held), add, last, reversed).v;
+    /// Texels [0, n) from one place to another that shares none with it: what `gn_scrolled` and
+    /// `gn_scrolled_code` say of each, and what became of it.
+    ///
+    /// Without a branch, and with all that does not change in a local, as compilers need it to vectorize.
+    template <bool Reversed>
+    [[gnu::noinline]] void block(T const* __restrict from, T* __restrict to, std::int32_t n,
+                                 ScrollStats& stats) const noexcept {
+        Number const by = Reversed ? -add : add;
+        Number const most = last;
+        Number const least{};
+        // What may be raised by `by` and not pass `most`; sums beyond 1 would be rounded.
+        Number const highest = by > least ? most - by : most;
+        Number const unwritten = Reversed ? least : most;
+        std::int32_t unwritten_count = 0;
+        std::int32_t inside_count = 0;
+        for (std::int32_t i = 0; i < n; ++i) {
+            auto const number = static_cast<Number>(from[i]);
+            Number const sum = number + by;
+            bool const drawn = Reversed ? number > least : number < most;  // false for a NaN
+            Number const raised = sum < least ? least : sum;
+            Number const moved = raised > most ? most : raised;
+            bool const inside =
+                drawn & (Reversed ? sum > least : sum >= least) & (Reversed ? number <= highest : sum < most);
+            to[i] = static_cast<T>(drawn ? moved : unwritten);
+            unwritten_count += drawn ? 0 : 1;
+            inside_count += inside ? 1 : 0;
+        }
+        stats.moved += inside_count;
+        stats.unwritten += unwritten_count;
+        stats.clamped += n - unwritten_count - inside_count;
     }
 
-    /// Counts one texel: 0 for one that was unwritten, 1 for one that was clamped.
-    void count(T held, std::int32_t& unwritten, std::int32_t& clamped) const noexcept {
-        auto const number = static_cast<Number>(held);
-        bool const drawn = reversed ? number > Number{} : number < last;
-        Number const sum = reversed ? number - add : number + add;
-        bool const beyond = sum < Number{} || sum > last || sum == clear();
-        unwritten += drawn ? 0 : 1;
-        clamped += drawn && beyond ? 1 : 0;
-    }
-
-    /// Texels [x0, x1) of a row, from low to high or the other way; `from` may be `to`.
+    /// Texels [x0, x1) of a row, in blocks from left to right or the other way, each read whole before it is written:
+    /// `from` may be `to`.
     ScrollStats shift(T const* from, T* to, std::int32_t x0, std::int32_t x1, bool upward) const noexcept {
-        std::int32_t unwritten = 0;
-        std::int32_t clamped = 0;
-        auto const one = [&](std::int32_t x) {
-            T const held = from[x + dx];
-            count(held, unwritten, clamped);
-            to[x] = static_cast<T>(value(held));
-        };
-        if (upward)
-            for (std::int32_t x = x0; x < x1; ++x) one(x);
-        else
-            for (std::int32_t x = x1; x-- > x0;) one(x);
-        return {x1 - x0 - unwritten - clamped, unwritten, 0, clamped};
+        constexpr std::int32_t size = 256;
+        T held[size];
+        T moved[size];
+        ScrollStats stats;
+        for (std::int32_t done = 0; done < x1 - x0; done += size) {
+            std::int32_t const n = std::min(size, x1 - x0 - done);
+            std::int32_t const x = upward ? x0 + done : x1 - done - n;
+            std::copy_n(from + x + dx, n, held);
+            if (is_code && add == Number{}) {
+                auto const none = static_cast<std::int64_t>(std::count(held, held + n, static_cast<T>(clear())));
+                stats.unwritten += none;
+                stats.moved += n - none;
+                std::copy_n(held, n, to + x);
+                continue;
+            }
+            reversed ? block<true>(held, moved, n, stats) : block<false>(held, moved, n, stats);
+            std::copy_n(moved, n, to + x);
+        }
+        return stats;
     }
 
     /// All of row `y` of the new map.
