@@ -16,6 +16,7 @@ layout(std430, set = 0, binding = 5) readonly buffer Borders { GnTileBorder bord
 layout(std430, set = 0, binding = 6) buffer Radiance { float radiance[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Computations { uint computations[]; };
 layout(std430, set = 0, binding = 8) writeonly buffer LightsOf { uint lights_of[]; };
+layout(std430, set = 0, binding = 9) readonly buffer Marks { uint marks[]; };
 
 layout(push_constant) uniform Constants {
     uint tile;
@@ -27,6 +28,7 @@ layout(push_constant) uniform Constants {
     float eye_x, eye_y, eye_z;
     float from_x, from_y, from_z;
     float forward_x, forward_y, forward_z;
+    uint marked;
 } c;
 
 const uint lanes = 64u;
@@ -78,6 +80,12 @@ GnSphere ball_at(uint light) {
     return GnSphere(vec3(balls[light], balls[c.lights + light], balls[2u * c.lights + light]), balls[3u * c.lights + light]);
 }
 
+bool keeps(uint tile, GnTilePlanes planes, uint light) {
+    if (c.marked == 0u) return gn_touches_tile(planes, ball_at(light));
+    bool marked = (marks[tile * (c.lights >> 5) + (light >> 5)] >> (light & 31u) & 1u) != 0u;
+    return marked && gn_touches_depths(nearest[0], farthest[0], ball_at(light));
+}
+
 /// Adds the list's lights to the lane's samples; `before` of them were added already.
 void add_lights(uint tile, uint lane, uint before, uint listed) {
     bool halves = c.halves != 0u;
@@ -111,7 +119,7 @@ void main() {
             barrier();
             if (lane < 2u) kept_bits[lane] = 0u;
             barrier();
-            bool kept = gn_touches_tile(planes, ball_at(next + lane));
+            bool kept = keeps(tile, planes, next + lane);
             if (kept) atomicOr(kept_bits[lane >> 5], 1u << (lane & 31u));
             barrier();
             uint low = kept_bits[0];

@@ -82,6 +82,7 @@ struct AlphaRule {
 [[nodiscard]] LightingTechnique tiled_deferred_technique() noexcept;
 [[nodiscard]] LightingTechnique tiled_deferred_en_technique() noexcept;
 [[nodiscard]] LightingTechnique tiled_deferred_single_technique() noexcept;
+[[nodiscard]] LightingTechnique tiled_deferred_raster_technique() noexcept;
 [[nodiscard]] std::span<LightingTechnique const> clustered_deferred_techniques() noexcept;
 [[nodiscard]] LightingTechnique clustered_deferred_device_technique() noexcept;
 [[nodiscard]] LightingTechnique forward_technique() noexcept;

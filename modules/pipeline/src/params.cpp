@@ -24,7 +24,7 @@ std::array<Technique, 2> const& table() noexcept {
 std::vector<LightingTechnique> const& lighting_table() noexcept {
     static std::vector<LightingTechnique> const all = [] {
         std::vector<LightingTechnique> list{deferred_technique(), deferred_stencil_technique(), tiled_deferred_technique(), tiled_deferred_en_technique(),
-                                            tiled_deferred_single_technique()};
+                                            tiled_deferred_single_technique(), tiled_deferred_raster_technique()};
         std::span<LightingTechnique const> const clustered = clustered_deferred_techniques();
         list.insert(list.end(), clustered.begin(), clustered.end());
         list.push_back(clustered_deferred_device_technique());

@@ -88,7 +88,7 @@ TEST_CASE("more lights than a tile's list holds at once give the CPU's image on 
     auto const frame = pipeline::make_frame(*scene, geometry, {*view, pipeline::sun({0.3, -1.0, 0.2}), false, nullptr, pipeline::SampleRule::formula}, serial);
     REQUIRE(frame.has_value());
     auto const least = lit(*pipeline::find_lighting_technique("deferred-stencil").value(), *frame, {}, cpu);
-    for (std::string const name : {"tiled-deferred-single"}) {
+    for (std::string const name : {"tiled-deferred-single", "tiled-deferred-raster"}) {
         pipeline::LightingTechnique const& technique = *pipeline::find_lighting_technique(name).value();
         auto const ours = lit(technique, *frame, {{"tile", "40"}}, cpu);
         auto const theirs = lit(technique, *frame, {{"tile", "40"}}, **gpu);

@@ -5,6 +5,7 @@
 #include <gnomon/lights/bounding_ball.hpp>
 #include <gnomon/lights/brute_force.hpp>
 #include <gnomon/lights/hierarchical.hpp>
+#include <gnomon/lights/hull.hpp>
 #include <gnomon/lights/light.hpp>
 #include <gnomon/lights/light_tree.hpp>
 #include <gnomon/lights/lists.hpp>

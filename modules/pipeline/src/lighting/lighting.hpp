@@ -74,6 +74,9 @@ struct Lighting {
     StagedBuffer balls;
     StagedBuffer borders;
     StagedBuffer lights_of;
+    StagedBuffer hulls;
+    StagedBuffer window;  ///< Borders alone.
+    StagedBuffer marks;
 
     DeviceLists on_device;
     ForwardState forward;

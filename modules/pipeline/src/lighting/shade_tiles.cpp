@@ -30,6 +30,7 @@ struct TileShading {
     std::span<math::vec3> radiance;
     std::span<std::uint32_t> computations;
     std::span<std::uint32_t> lights_of;
+    std::span<std::uint32_t const> marks;
 
     explicit TileShading(backend::KernelData const& data)
         : c(data.constant<ShadeTilesStd>()),
@@ -41,7 +42,8 @@ struct TileShading {
           borders(data.buffer<cull::TileBorder const>(5)),
           radiance(data.buffer<math::vec3>(6)),
           computations(data.buffer<std::uint32_t>(7)),
-          lights_of(data.buffer<std::uint32_t>(8)) {}
+          lights_of(data.buffer<std::uint32_t>(8)),
+          marks(data.buffer<std::uint32_t const>(9)) {}
 
     [[nodiscard]] float depth_of(std::size_t sample) const noexcept {
         math::vec3 const offset = from.samples[sample].position - math::vec3(c.from[0], c.from[1], c.from[2]);
@@ -55,10 +57,34 @@ struct TileShading {
             for (std::uint32_t column = x; column < std::min(x + c.tile, c.width); ++column)
                 if (std::uint32_t const i = sample_of[std::size_t{row} * c.width + column]; i != no_sample) use(i);
     }
+    /// Bits of N lights of a tile from `first`, a multiple of N.
+    template <std::size_t N>
+    [[nodiscard]] std::uint32_t marks_of(std::uint32_t tile, std::uint32_t first) const noexcept {
+        return marks[std::size_t{tile} * (c.lights / 32) + first / 32] >> (first % 32) & ((1U << N) - 1U);
+    }
     [[nodiscard]] cull::TilePlanes planes_of(std::uint32_t tile, cull::DepthRange const& depths) const noexcept {
         std::size_t const column = tile % c.columns, row = c.columns + 1 + tile / c.columns;
         return formula::gn_tile_planes({borders[column], borders[column + 1], borders[row], borders[row + 1], depths.near_m, depths.far_m},
                                        c.orthographic == 0);
+    }
+};
+
+/// What a tile tests lights by.
+struct BallTest {
+    std::uint32_t tile;
+    cull::DepthRange depths;
+    cull::TilePlanes planes;
+
+    template <std::size_t N>
+    [[nodiscard, gnu::always_inline]] inline std::uint32_t keep(TileShading const& s, std::uint32_t first) const noexcept {
+        using Group = math::Lanes<float, N>;
+        std::uint32_t const marked = s.c.marked != 0 ? s.marks_of<N>(tile, first) : ~0U;
+        if (marked == 0) return 0;
+        std::size_t const n = s.c.lights;
+        float const* const at = s.balls.data() + first;
+        formula::GnSphere<Group> const balls{{Group::load(at), Group::load(at + n), Group::load(at + 2 * n)}, Group::load(at + 3 * n)};
+        if (s.c.marked != 0) return marked & math::bits(gn_touches_depths(depths.near_m, depths.far_m, balls).v);
+        return math::bits(gn_touches_tile(planes, balls).v);
     }
 };
 
@@ -69,15 +95,10 @@ struct TileList {
     std::uint32_t next = 0;  ///< The first light that was not tested.
 
     template <std::size_t N>
-    [[gnu::always_inline]] void fill(TileShading const& s, cull::TilePlanes const& planes) noexcept {
-        using Group = math::Lanes<float, N>;
-        std::size_t const n = s.c.lights;
-        for (count = 0; next < n && count + backend::kernel_local_size <= tile_list_size; next += N) {
-            float const* const at = s.balls.data() + next;
-            formula::GnSphere<Group> const balls{{Group::load(at), Group::load(at + n), Group::load(at + 2 * n)}, Group::load(at + 3 * n)};
-            for (std::uint32_t kept = math::bits(gn_touches_tile(planes, balls).v); kept != 0; kept &= kept - 1)
+    [[gnu::always_inline]] void fill(TileShading const& s, BallTest const& test) noexcept {
+        for (count = 0; next < s.c.lights && count + backend::kernel_local_size <= tile_list_size; next += N)
+            for (std::uint32_t kept = test.keep<N>(s, next); kept != 0; kept &= kept - 1)
                 light[count++] = next + static_cast<std::uint32_t>(__builtin_ctz(kept));
-        }
     }
 };
 
@@ -108,11 +129,11 @@ template <std::size_t N>
     cull::DepthRange depths;
     s.each_sample(tile, [&](std::uint32_t i) { depths.add(s.depth_of(i)); });
     bool const any = depths.near_m <= depths.far_m;
-    cull::TilePlanes const planes = s.planes_of(tile, depths);
+    BallTest const test{tile, depths, s.planes_of(tile, depths)};
     TileList list;
     std::uint32_t before = 0;
     do {
-        if (any) list.fill<N>(s, planes);
+        if (any) list.fill<N>(s, test);
         else list.next = s.c.lights;
         std::uint32_t sample[N];
         std::size_t count = 0;
@@ -150,7 +171,7 @@ void shade_tiles(backend::KernelData const& data, std::size_t begin, std::size_t
 constinit backend::Kernel const shade_tiles_kernel{.name = "shade_tiles",
                                                    .cpu = &shade_tiles,
                                                    .spirv = shade_tiles_comp,
-                                                   .buffers = 9,
+                                                   .buffers = 10,
                                                    .constant_bytes = sizeof(ShadeTilesStd),
                                                    .grain = 4 * backend::kernel_local_size};
 

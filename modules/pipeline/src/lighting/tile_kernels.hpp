@@ -3,6 +3,7 @@
 // The GLSL halves (shaders/*.comp) declare the same.
 
 #include <gnomon/backend/kernel.hpp>
+#include <gnomon/lights/hull.hpp>
 
 #include <cstdint>
 
@@ -15,8 +16,9 @@ namespace gnomon::pipeline {
 //           4 float balls[4][lights]: x, y, depth, radius of a light in culling space; infinite: everywhere; below 0: nowhere
 //           5 cull::TileBorder borders[columns + 1 + rows + 1]: of columns, then of rows
 //           6 out float radiance[n][3]   7 out uint computations[n]   8 out uint lights_of[tiles]; 0 where a tile has no sample
-// The group finds the nearest and the farthest sample of its tile, tests every light, 64 at a time, and lists those that
-// may reach the tile, in ascending order, in memory that the group shares. Where that is full its samples are shaded and
+//           9 uint marks[tiles][lights / 32], read if `marked`: the lights of a tile, a bit each
+// The group finds the nearest and the farthest sample of its tile, tests every light, 64 at a time, against the six planes
+// between them, or against the two depths alone if it is marked, and lists those that may reach, in ascending order, in memory that the group shares. Where that is full its samples are shaded and
 // the list begins anew: it has no limit. The sum begins with what no light adds.
 
 struct ShadeTilesStd {
@@ -29,12 +31,27 @@ struct ShadeTilesStd {
     float eye[3];                 ///< Work space, as all of these.
     float from[3];                ///< Depths are along `forward`, from here on.
     float forward[3];
+    std::uint32_t marked;
 };
-static_assert(sizeof(ShadeTilesStd) == 68);
+static_assert(sizeof(ShadeTilesStd) == 72);
 
 /// Lights that a group lists before it shades.
 inline constexpr std::uint32_t tile_list_size = 1024;
 
 extern backend::Kernel const shade_tiles_kernel;
+
+// --- mark_tiles: the triangles of lights' hulls, rasterized into an image of one pixel a tile -------------------------
+//
+// buffers   0 lights::Hull[lights]   1 float borders[columns + 1 + rows + 1]   2 marks: bits are set, in any order
+// An item is a triangle: 20 of a light. Of a light that is everywhere the first marks all tiles.
+
+struct MarkTilesStd {
+    std::uint32_t count;  ///< Items.
+    std::uint32_t columns, rows;
+    std::uint32_t words;  ///< Of a tile's marks.
+    std::uint32_t orthographic;
+};
+
+extern backend::Kernel const mark_tiles_kernel;
 
 }  // namespace gnomon::pipeline

@@ -74,6 +74,11 @@ GN_FN GN_BOOL gn_touches_tile(GN_IN(GnTilePlanes) planes, GN_IN(GN_TYPE(GnSphere
            gn_touches_plane_sphere(planes.nearest, ball) && gn_touches_plane_sphere(planes.farthest, ball);
 }
 
+/// Whether a ball may reach depths of the tile: its ends are rounded outward. Infinite and negative radii as above.
+GN_FN GN_BOOL gn_touches_depths(float nearest, float farthest, GN_IN(GN_TYPE(GnSphere)) ball) {
+    return gn_low_end(ball.center.z, ball.radius) <= farthest && -gn_low_end(-ball.center.z, ball.radius) >= nearest && ball.radius >= 0.0;
+}
+
 GN_END
 
 #endif  // GNOMON_CULL_FORMULA_TILE_GLSL

@@ -3,6 +3,8 @@
 #include <gnomon/check/check.hpp>
 #include <gnomon/cull/tile_planes.hpp>
 #include <gnomon/lights/bounding_ball.hpp>
+#include <gnomon/lights/brute_force.hpp>
+#include <gnomon/lights/hull.hpp>
 #include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/scene.hpp>
 
@@ -76,41 +78,91 @@ std::uint64_t count_in(pipeline::LightingOutput const& output, std::string_view 
     return 0;
 }
 
+/// Lights of each tile with samples, counted one by one.
+struct TileCounts {
+    std::vector<std::uint32_t> lights;
+    std::uint64_t pairs = 0;
+
+    template <class Touches>
+    TileCounts(LampRoom& room, std::uint32_t tile_px, Touches&& touches) {
+        cluster::Grid const grid = room.tiles(std::to_string(tile_px));
+        cluster::GridView const view = grid.view();
+        auto const depths = room.depths(tile_px, view);
+        pipeline::PreparedLights prepared;
+        pipeline::prepare_lights(room.frame, room.scene.lights, prepared);
+        lights.assign(depths.size(), 0);
+        for (std::uint32_t tile = 0; tile < depths.size(); ++tile) {
+            if (!(depths[tile].near_m <= depths[tile].far_m)) continue;
+            for (lights::Light const& light : prepared.culled)
+                lights[tile] += touches(view, tile % view.columns(), tile / view.columns(), depths[tile], light) ? 1U : 0U;
+            pairs += lights[tile];
+        }
+    }
+};
+
+/// Whether the rows of the tile grid have the light in a tile.
+bool rows_touch(cluster::GridView const& grid, std::uint32_t column, std::uint32_t row, lights::Light const& light) {
+    return lights::may_touch(cull::make_row_grid(grid), light, column, row, 0);
+}
+
+void check_counts(LampRoom& room, std::string const& name, TileCounts const& expected, double most) {
+    auto const output = room.run(name, {{"tile", "16"}});
+    cluster::Grid const grid = room.tiles("16");
+    std::size_t otherwise = 0;
+    for (std::size_t i = 0; i < output.computations.size(); ++i)
+        otherwise += output.computations[i] != expected.lights[room.tile_of(i, 16, grid.view())] ? 1U : 0U;
+    CHECK(otherwise == 0);
+    CHECK(count_in(output, "light_pairs") == expected.pairs);
+    auto const rows = room.run("tiled-deferred", {{"tile", "16"}});
+    CHECK((output.radiance == rows.radiance));
+    auto const computations = static_cast<double>(count_in(output, "lighting_computations"));
+    CHECK(computations < most * static_cast<double>(count_in(rows, "lighting_computations")));
+}
+
 }  // namespace
 
 TEST_CASE("a tile's kernel evaluates the lights that reach its six planes, no more and no fewer", "[pipeline][lighting]") {
     for (bool const orthographic : {false, true}) {
         LampRoom room("300", {150, 85}, orthographic);
         REQUIRE(room.frame.samples.size() > 5000);
-        auto const output = room.run("tiled-deferred-single", {{"tile", "16"}});
-        cluster::Grid const grid = room.tiles("16");
-        auto const depths = room.depths(16, grid.view());
-        pipeline::PreparedLights prepared;
-        pipeline::prepare_lights(room.frame, room.scene.lights, prepared);
-        std::vector<std::uint32_t> expected(depths.size(), 0);
-        std::uint64_t pairs = 0;
-        for (std::uint32_t tile = 0; tile < depths.size(); ++tile) {
-            if (!(depths[tile].near_m <= depths[tile].far_m)) continue;
-            auto const planes = cull::make_tile_planes(grid.view(), tile % grid.view().columns(), tile / grid.view().columns(), depths[tile]);
-            for (lights::Light const& light : prepared.culled) expected[tile] += cull::may_touch(planes, lights::bounding_ball(light)) ? 1U : 0U;
-            pairs += expected[tile];
-        }
-        std::size_t otherwise = 0;
-        for (std::size_t i = 0; i < output.computations.size(); ++i)
-            otherwise += output.computations[i] != expected[room.tile_of(i, 16, grid.view())] ? 1U : 0U;
-        CHECK(otherwise == 0);
-        CHECK(count_in(output, "light_pairs") == pairs);
-        auto const rows = room.run("tiled-deferred", {{"tile", "16"}});
-        CHECK((output.radiance == rows.radiance));
-        CHECK(count_in(output, "lighting_computations") < 2 * count_in(rows, "lighting_computations"));
+        TileCounts const expected(room, 16, [&](cluster::GridView const& grid, std::uint32_t column, std::uint32_t row, cull::DepthRange const& depths,
+                                                lights::Light const& light) {
+            return cull::may_touch(cull::make_tile_planes(grid, column, row, depths), lights::bounding_ball(light));
+        });
+        check_counts(room, "tiled-deferred-single", expected, 2.0);
+    }
+}
+
+TEST_CASE("a tile's kernel evaluates the lights whose hulls were drawn into it, and that reach its depths", "[pipeline][lighting]") {
+    for (bool const orthographic : {false, true}) {
+        LampRoom room("300", {150, 85}, orthographic);
+        std::uint64_t exact = 0, drawn = 0;
+        TileCounts const expected(room, 16, [&](cluster::GridView const& grid, std::uint32_t column, std::uint32_t row, cull::DepthRange const& depths,
+                                                lights::Light const& light) {
+            math::Sphere const ball = lights::bounding_ball(light);
+            lights::Hull const hull = lights::make_hull(light, grid.perspective);
+            bool covered = light.kind == lights::Kind::directional;
+            for (std::uint32_t f = 0; f < lights::hull_faces && hull.kind < 2; ++f)
+                lights::for_each_tile(hull, f, {grid.x, grid.y, grid.perspective},
+                                      [&](std::uint32_t i, std::uint32_t j) { covered = covered || (i == column && j == row); });
+            bool const touches = rows_touch(grid, column, row, light);
+            drawn += covered ? 1U : 0U;
+            exact += touches ? 1U : 0U;
+            if (touches && light.kind == lights::Kind::point) CHECK(covered);
+            return covered && cull::may_touch(depths, ball.center.z, ball.radius);
+        });
+        CHECK(drawn < 2 * exact);  // spots wider than 45 degrees are drawn as balls
+        check_counts(room, "tiled-deferred-raster", expected, 1.5);
     }
 }
 
 TEST_CASE("a tile may have more lights than its kernel lists at once", "[pipeline][lighting]") {
     LampRoom room("2500", {40, 22}, false);
-    auto const output = room.run("tiled-deferred-single", {{"tile", "40"}});
-    CHECK(output.computations.front() > pipeline::tile_list_size);
-    CHECK((output.radiance == room.run("deferred-stencil", {}).radiance));
+    for (std::string const name : {"tiled-deferred-single", "tiled-deferred-raster"}) {
+        auto const output = room.run(name, {{"tile", "40"}});
+        CHECK(output.computations.front() > pipeline::tile_list_size);
+        CHECK((output.radiance == room.run("deferred-stencil", {}).radiance));
+    }
 }
 
 TEST_CASE("lights that are none are left out of a tile's lists, and counted", "[pipeline][lighting]") {
@@ -120,6 +172,7 @@ TEST_CASE("lights that are none are left out of a tile's lists, and counted", "[
     bad.position_m.y = std::numeric_limits<double>::quiet_NaN();
     room.scene.lights.push_back(bad);
     auto const after = room.run("tiled-deferred-single", {});
+    CHECK((room.run("tiled-deferred-raster", {}).radiance == after.radiance));
     CHECK((before.radiance == after.radiance));
     CHECK((before.computations == after.computations));
     CHECK(count_in(before, "lights_left_out") == 0);

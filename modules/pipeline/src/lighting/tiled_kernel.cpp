@@ -1,5 +1,6 @@
-// The technique `tiled-deferred-single`: one kernel finds the lights of a tile by its six planes, and shades it.
-// [Olsson 2014, Paper I, 7, after Lauritzen 2010]
+// The technique `tiled-deferred-single`: one kernel finds the lights of a tile by its six planes, and shades it; and
+// `tiled-deferred-raster`: lights are drawn into the tiles first, by conservative rasterization.
+// [Olsson 2014, Paper I, 7, after Lauritzen 2010; and 6.1]
 
 #include "../detail.hpp"
 #include "../workspace.hpp"
@@ -8,6 +9,7 @@
 
 #include <gnomon/cull/tile_planes.hpp>
 #include <gnomon/lights/bounding_ball.hpp>
+#include <gnomon/lights/hull.hpp>
 
 #include <array>
 #include <utility>
@@ -56,7 +58,8 @@ ShadeTilesStd constants_of(LightingRun const& on, cluster::GridView const& grid,
             grid.perspective ? 0U : 1U,
             {eye.x, eye.y, eye.z},
             {from.x, from.y, from.z},
-            {forward.x, forward.y, forward.z}};
+            {forward.x, forward.y, forward.z},
+            0};
 }
 
 /// Counts what tiles with samples list.
@@ -66,7 +69,27 @@ void add_tile_counts(std::span<std::uint32_t const> lights_of, std::uint64_t bad
     output.counts.insert(output.counts.end(), {{"light_pairs", pairs}, {"lists", lights_of.size()}, {"lights_left_out", bad}});
 }
 
-Result<LightingOutput> run_single(LightingRun const& on) {
+/// Draws the lights' hulls into the tiles' marks.
+void record_marks(LightingRun const& on, Verbs& verbs, cluster::GridView const& grid, Lighting& l) {
+    std::vector<lights::Hull> hulls;
+    for (lights::Light const& light : l.prepared.culled) hulls.push_back(lights::make_hull(light, grid.perspective));
+    std::vector<float> window(grid.x.begin(), grid.x.end());
+    window.insert(window.end(), grid.y.begin(), grid.y.end());
+    auto const words = static_cast<std::uint32_t>(l.tile_balls.size() / 4 / 32);
+    on.device.stage("upload");
+    l.hulls.fill<lights::Hull>(verbs, hulls);
+    l.window.fill<float>(verbs, window);
+    l.marks.fit(verbs, grid.clusters() * words * sizeof(std::uint32_t));
+    on.device.stage("insert");
+    std::array const cleared{l.marks.get()};
+    ClearWordsStd const clear{static_cast<std::uint32_t>(grid.clusters() * words), 0};
+    verbs(on.device.run(clear_words_kernel, {clear.count, cleared, {}, backend::bytes_of(clear)}));
+    std::array const buffers{l.hulls.get(), l.window.get(), l.marks.get()};
+    MarkTilesStd const c{static_cast<std::uint32_t>(hulls.size() * lights::hull_faces), grid.columns(), grid.rows(), words, grid.perspective ? 0U : 1U};
+    verbs(on.device.run(mark_tiles_kernel, {hulls.size() * lights::hull_faces, buffers, {}, backend::bytes_of(c)}));
+}
+
+Result<LightingOutput> run_tiles(LightingRun const& on, bool marked) {
     Verbs verbs(on.device);
     Lighting& l = begin_lighting(on, verbs);
     Workspace::State& state = on.workspace.state();
@@ -81,15 +104,18 @@ Result<LightingOutput> run_single(LightingRun const& on) {
     l.radiance.fit(verbs, n * sizeof(math::vec3));
     l.computations.fit(verbs, n * sizeof(std::uint32_t));
     l.lights_of.fit(verbs, std::span(lights_of).size_bytes());
+    if (marked) record_marks(on, verbs, view, l);
+    else l.marks.fit(verbs, 0);
     on.device.stage("upload");
     l.lights.fill<lights::ShadedLight>(verbs, l.prepared.shaded);
     l.sample_of.fill<std::uint32_t>(verbs, on.frame.sample_of_pixel);
     l.balls.fill<float>(verbs, l.tile_balls);
     l.borders.fill<cull::TileBorder>(verbs, make_borders(view));
     on.device.stage("shade");
-    std::array const buffers{state.samples.samples.get(), l.gbuffer.get(), l.lights.get(),   l.sample_of.get(),   l.balls.get(),
-                             l.borders.get(),             l.radiance.get(), l.computations.get(), l.lights_of.get()};
-    ShadeTilesStd const c = constants_of(on, view, l);
+    std::array const buffers{state.samples.samples.get(), l.gbuffer.get(),  l.lights.get(),       l.sample_of.get(), l.balls.get(),
+                             l.borders.get(),             l.radiance.get(), l.computations.get(), l.lights_of.get(), l.marks.get()};
+    ShadeTilesStd c = constants_of(on, view, l);
+    c.marked = marked ? 1U : 0U;
     verbs(on.device.run(shade_tiles_kernel, {view.clusters() * backend::kernel_local_size, buffers, {}, backend::bytes_of(c)}));
     on.device.stage("");
     verbs(on.device.read(l.lights_of.get(), 0, std::as_writable_bytes(std::span(lights_of))));
@@ -101,7 +127,13 @@ Result<LightingOutput> run_single(LightingRun const& on) {
 }  // namespace
 
 LightingTechnique tiled_deferred_single_technique() noexcept {
-    return {"tiled-deferred-single", "one kernel tests all lights against a tile's six planes, lists them and shades", single_params(), &run_single};
+    return {"tiled-deferred-single", "one kernel tests all lights against a tile's six planes, lists them and shades", single_params(),
+            [](LightingRun const& on) { return run_tiles(on, false); }};
+}
+
+LightingTechnique tiled_deferred_raster_technique() noexcept {
+    return {"tiled-deferred-raster", "lights drawn into an image of one pixel a tile, by conservative rasterization of their hulls", single_params(),
+            [](LightingRun const& on) { return run_tiles(on, true); }};
 }
 
 }  // namespace gnomon::pipeline

@@ -1,0 +1,71 @@
+// The tiles that a triangle of a light's hull may touch, marked: the GLSL half of `mark_tiles`. tile_kernels.hpp has the layout.
+
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include <gnomon/lights/formula/hull.glsl>
+
+#include "gnomon/backend/item.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 0) readonly buffer Hulls { GnHull hulls[]; };
+layout(std430, set = 0, binding = 1) readonly buffer Borders { float borders[]; };
+layout(std430, set = 0, binding = 2) buffer Marks { uint marks[]; };
+layout(push_constant) uniform Constants {
+    uint count;
+    uint columns, rows;
+    uint words;
+    uint orthographic;
+} c;
+
+// Ways to leave tiles out: what is left of the face, right of it, above, below.
+const uint to_left = 0u;
+const uint to_right = 1u;
+const uint above = 2u;
+const uint below = 3u;
+
+bool is_past(GnHullFace face, uint way, uint i) {
+    uint row = c.columns + 1u + i;
+    if (way == to_left) return gn_is_face_right(face, borders[i + 1u], 1.0);
+    if (way == to_right) return !gn_is_face_right(face, -borders[i], -1.0);
+    if (way == above) return gn_is_face_below(face, borders[row + 1u], 1.0);
+    return !gn_is_face_below(face, -borders[row], -1.0);
+}
+
+/// How many borders are past, by binary search.
+uint count_past(GnHullFace face, uint way, uint count) {
+    uint first = 0u;
+    for (uint rest = count; rest > 0u;) {
+        uint middle = rest / 2u;
+        bool past = is_past(face, way, first + middle);
+        first = past ? first + middle + 1u : first;
+        rest = past ? rest - middle - 1u : middle;
+    }
+    return first;
+}
+
+void mark(uint light, uint tile) { atomicOr(marks[tile * c.words + (light >> 5)], 1u << (light & 31u)); }
+
+void main() {
+    uint item = GNOMON_ITEM;
+    if (item >= c.count) return;
+    uint light = item / gn_hull_faces();
+    uint f = item % gn_hull_faces();
+    GnHull hull = hulls[light];
+    if (hull.kind == 2u && f == 0u)
+        for (uint tile = 0u; tile < c.columns * c.rows; ++tile) mark(light, tile);
+    if (hull.kind >= 2u) return;
+    GnHullFace face = gn_hull_face(hull, f, c.orthographic == 0u);
+    if (face.kind == 0u) return;
+    uint left = count_past(face, to_left, c.columns);
+    uint right = count_past(face, to_right, c.columns);
+    uint top = count_past(face, above, c.rows);
+    uint bottom = count_past(face, below, c.rows);
+    uint rows = c.columns + 1u;
+    for (uint j = top; j < bottom; ++j)
+        for (uint i = left; i < right; ++i) {
+            GnTileWindow tile = GnTileWindow(borders[i], borders[i + 1u], borders[rows + j], borders[rows + j + 1u]);
+            if (gn_may_cover(face, tile)) mark(light, j * c.columns + i);
+        }
+}
