@@ -113,8 +113,8 @@ Outcome<ScalingResult> grow(Setting& setting, SceneChoice const& choice, RunOpti
 }
 
 std::vector<std::string> const& paper_one() {
-    static std::vector<std::string> const names{"deferred",      "deferred-stencil",  "tiled-deferred", "tiled-deferred-single",
-                                                "tiled-forward", "tiled-forward-prez"};
+    static std::vector<std::string> const names{"deferred",              "deferred-stencil", "tiled-deferred", "tiled-deferred-single",
+                                                "tiled-deferred-raster", "tiled-forward",    "tiled-forward-prez"};
     return names;
 }
 

@@ -45,6 +45,13 @@ uint count_past(GnHullFace face, uint way, uint count) {
     return first;
 }
 
+const uint block = 8u;  // lights::hull_block
+
+bool covers(GnHullFace face, uint i, uint i_end, uint j, uint j_end) {
+    uint rows = c.columns + 1u;
+    return gn_may_cover(face, GnTileWindow(borders[i], borders[i_end], borders[rows + j], borders[rows + j_end]));
+}
+
 void mark(uint light, uint tile) { atomicOr(marks[tile * c.words + (light >> 5)], 1u << (light & 31u)); }
 
 void main() {
@@ -62,10 +69,13 @@ void main() {
     uint right = count_past(face, to_right, c.columns);
     uint top = count_past(face, above, c.rows);
     uint bottom = count_past(face, below, c.rows);
-    uint rows = c.columns + 1u;
-    for (uint j = top; j < bottom; ++j)
-        for (uint i = left; i < right; ++i) {
-            GnTileWindow tile = GnTileWindow(borders[i], borders[i + 1u], borders[rows + j], borders[rows + j + 1u]);
-            if (gn_may_cover(face, tile)) mark(light, j * c.columns + i);
+    for (uint block_j = top; block_j < bottom; block_j += block)
+        for (uint block_i = left; block_i < right; block_i += block) {
+            uint j_end = min(block_j + block, bottom);
+            uint i_end = min(block_i + block, right);
+            if (!covers(face, block_i, i_end, block_j, j_end)) continue;
+            for (uint j = block_j; j < j_end; ++j)
+                for (uint i = block_i; i < i_end; ++i)
+                    if (covers(face, i, i + 1u, j, j + 1u)) mark(light, j * c.columns + i);
         }
 }

@@ -25,6 +25,9 @@ using HullFace = formula::GnHullFace;
 static_assert(sizeof(Hull) == 64 && std::is_trivially_copyable_v<Hull>);
 
 inline constexpr std::uint32_t hull_faces = formula::gn_hull_faces();
+/// Side of the blocks of tiles that are tested first. Products, greatest values and sums round monotonically: a block that
+/// a face leaves out has no tile that it does not.
+inline constexpr std::uint32_t hull_block = 8;
 
 enum class HullKind : std::uint32_t {
     ball,
@@ -116,9 +119,17 @@ void for_each_tile(Hull const& hull, std::uint32_t f, HullTiles const& tiles, Vi
     std::uint32_t const right = detail::count_past(columns, [&](std::uint32_t i) { return !gn_is_face_right(face, -tiles.x[i], -1.0F); });
     std::uint32_t const top = detail::count_past(rows, [&](std::uint32_t j) { return gn_is_face_below(face, tiles.y[j + 1], 1.0F); });
     std::uint32_t const bottom = detail::count_past(rows, [&](std::uint32_t j) { return !gn_is_face_below(face, -tiles.y[j], -1.0F); });
-    for (std::uint32_t j = top; j < bottom; ++j)
-        for (std::uint32_t i = left; i < right; ++i)
-            if (gn_may_cover(face, {tiles.x[i], tiles.x[i + 1], tiles.y[j], tiles.y[j + 1]})) visit(i, j);
+    auto const covers = [&](std::uint32_t i, std::uint32_t i_end, std::uint32_t j, std::uint32_t j_end) {
+        return gn_may_cover(face, {tiles.x[i], tiles.x[i_end], tiles.y[j], tiles.y[j_end]});
+    };
+    for (std::uint32_t block_j = top; block_j < bottom; block_j += hull_block)
+        for (std::uint32_t block_i = left; block_i < right; block_i += hull_block) {
+            std::uint32_t const j_end = std::min(block_j + hull_block, bottom), i_end = std::min(block_i + hull_block, right);
+            if (!covers(block_i, i_end, block_j, j_end)) continue;
+            for (std::uint32_t j = block_j; j < j_end; ++j)
+                for (std::uint32_t i = block_i; i < i_end; ++i)
+                    if (covers(i, i + 1, j, j + 1)) visit(i, j);
+        }
 }
 
 }  // namespace gnomon::lights

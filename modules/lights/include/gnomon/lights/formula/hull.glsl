@@ -5,8 +5,8 @@
 //
 //     n = a x b,  inside: n . (X, Y, 1) >= 0 for some corner (X, Y) of the tile       det = n . c > 0: faces away
 //
-// Triangles that face the eye are left out: a ray that meets the light leaves its hull, through one that faces away, so
-// the others cover all of the light, with the eye inside it too. An orthographic view is the same with depth 1.
+// Triangles that face the eye, or lie behind it, are left out: a ray that meets the light leaves its hull, through one that faces away, so
+// the others cover all of the light in front of the eye, with the eye inside it too. An orthographic view is the same with depth 1.
 //
 // No tile is missed. With u = 2^-24: an edge's normal, a x (b - a), errs by at most 3.1 u of its terms' sizes, its value at a
 // tile's corner by 6.1 u, the determinant by 7.1 u; all are compared with 10 u. The corners themselves are rounded, by at
@@ -114,7 +114,7 @@ GN_PLAIN_FN GnHullEdge gn_hull_edge(vec3 a, vec3 b) {
     return e;
 }
 
-// Kinds: 0 faces the eye, 1 faces away, 2 edge-on as far as rounding can tell, so that its edges say nothing.
+// Kinds: 0 faces the eye or is not in front of it, 1 faces away, 2 edge-on as far as rounding can tell, so that its edges say nothing.
 struct GnHullFace {
     vec3 a;
     vec3 b;
@@ -145,7 +145,8 @@ GN_PLAIN_FN GnHullFace gn_hull_face(GN_IN(GnHull) hull, uint f, bool perspective
     GN_PRECISE float det = (face.ab.normal.x * x + face.ab.normal.y * y) + face.ab.normal.z * z;
     GN_PRECISE float size = (face.ab.size.x * abs(x) + face.ab.size.y * abs(y)) + face.ab.size.z * abs(z);
     GN_PRECISE float bound = size * 5.9604644775390625e-7f + 7.52316384526264e-37f;
-    face.kind = det > bound ? 1u : det < -bound ? 0u : 2u;
+    bool behind = face.a.z <= 0.0f && face.b.z <= 0.0f && face.c.z <= 0.0f;
+    face.kind = det < -bound || behind ? 0u : det > bound ? 1u : 2u;
     return face;
 }
 
