@@ -192,6 +192,27 @@ TEST_CASE("a spot's map is drawn again for a changed member only, and each face 
     CHECK(update(1).counts.statics == 1);
 }
 
+TEST_CASE("the two strips of a scroll are filled in two frames, and the map is valid after the second", "[cache]") {
+    std::vector<cache::Object> const objects{static_object(1, {0, 0, 5, 200, 200, 9}), static_object(2, {102, 90, 0, 106, 95, 1})};
+    cache::CachedMap map;
+    (void)map.plan({.width = 100, .height = 100}, objects);
+    map.commit();
+    cache::Volume const moved{.x = 10, .y = 5, .width = 100, .height = 100};
+    CHECK(map.plan(moved, objects).statics.size() == 2);
+    map.commit_rect({10, 100, 100, 105});  // below, as wide as what was kept
+    CHECK(map.state() == cache::MapState::partial);
+    CHECK(map.complete_rect() == cache::TexelRect{10, 5, 100, 105});
+    CHECK(map.stale_updates() == 1);
+    auto const& rest = map.plan(moved, objects);
+    CHECK(rest.action == cache::MapAction::add);
+    CHECK(rest.reason == cache::Reason::part_owed);
+    CHECK(rest.statics.size() == 2);
+    map.commit_rect({100, 5, 110, 105});
+    CHECK(map.state() == cache::MapState::valid);
+    CHECK(map.complete_rect() == cache::rect_of(moved));
+    CHECK(map.plan(moved, objects).action == cache::MapAction::none);
+}
+
 TEST_CASE("an origin rebase keeps the cache", "[cache][property]") {
     auto const shift = array_of<3>(integers(-20000000, 20000000));
     for_all(cases(300), shift, array_of<3>(floats(-1000.0, 1000.0)), array_of<3>(floats(0.0, 30.0)), [](auto const& by, auto const& at, auto const& size) {

@@ -94,11 +94,13 @@ void for_texels(Caster const& c, std::uint64_t epoch, Volume const& v, F const& 
         }
 }
 
-inline void draw(Image& image, Caster const& c, std::uint64_t epoch) {
-    for_texels(c, epoch, image.v, [&](std::int64_t i, std::int64_t j, std::int64_t code, bool) {
-        image.at(i, j) = std::min(image.at(i, j), static_cast<std::int32_t>(code));
+inline void draw(Image& image, Caster const& c, std::uint64_t epoch, cache::TexelRect const& only) {
+    Volume const& v = image.v;
+    for_texels(c, epoch, v, [&](std::int64_t i, std::int64_t j, std::int64_t code, bool) {
+        if (cache::contains(only, {v.x + i, v.y + j, v.x + i + 1, v.y + j + 1})) image.at(i, j) = std::min(image.at(i, j), static_cast<std::int32_t>(code));
     });
 }
+inline void draw(Image& image, Caster const& c, std::uint64_t epoch) { draw(image, c, epoch, cache::rect_of(image.v)); }
 
 inline void copy_texels(Image& to, Image const& from, cache::TexelRect const& rect) {
     auto const inside = cache::intersection(rect, cache::rect_of(from.v));  // faulty rules may ask for more

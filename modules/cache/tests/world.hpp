@@ -3,6 +3,8 @@
 
 #include "actors.hpp"
 
+#include <optional>
+
 namespace cache_model {
 
 template <class Rules>
@@ -129,10 +131,35 @@ private:
         }
         bool const in_part = !last && !plan.statics.empty() && random_.one_in(actors_.crowded ? 2 : 4);
         std::size_t const count = in_part ? static_cast<std::size_t>(random_.below(static_cast<int>(plan.statics.size()))) : plan.statics.size();
-        perform(plan, count);
         redraws_ += plan.action == MapAction::redraw ? 1U : 0U;
+        if (in_part && !actors_.stays && random_.one_in(2)) return frame_of_rect(plan, occlusion);
+        perform(plan, count);
         if (in_part) map_.commit_part(count);
         else map_.commit();
+        actors_.happened = false;
+        occluded_before_ = occlusion;
+        compare();
+    }
+
+    /// All casters, but to a half or to any rectangle only.
+    void frame_of_rect(cache::Plan const& plan, bool occlusion) {
+        cache::TexelRect done = cache::rect_of(volume_);
+        switch (random_.below(5)) {
+            case 0: done.x1 = done.x0 + 4; break;
+            case 1: done.x0 += 4; break;
+            case 2: done.y0 += 4; break;
+            case 3: done.y1 = done.y0 + 4; break;
+            default: {
+                std::int64_t const x = random_.within(-1, 4);
+                std::int64_t const y = random_.within(-1, 4);
+                int const wide = random_.within(0, 9);
+                int const high = random_.within(0, 9);
+                done = {done.x0 + x, done.y0 + y, done.x0 + x + wide, done.y0 + y + high};
+                break;
+            }
+        }
+        perform(plan, plan.statics.size(), done);
+        map_.commit_rect(done);
         actors_.happened = false;
         occluded_before_ = occlusion;
         compare();
@@ -149,10 +176,10 @@ private:
         };
     }
 
-    void perform(cache::Plan const& plan, std::size_t count) {
+    void perform(cache::Plan const& plan, std::size_t count, std::optional<cache::TexelRect> const& only = {}) {
         if (plan.action == MapAction::redraw) c_.clear(volume_);
         if (plan.action == MapAction::scroll) c_ = scrolled(c_, volume_, plan.shift, fault_);
-        for (std::size_t k = 0; k < count; ++k) draw(c_, caster(plan.statics[k]), epoch_);
+        for (std::size_t k = 0; k < count; ++k) draw(c_, caster(plan.statics[k]), epoch_, only.value_or(cache::rect_of(volume_)));
         if (plan.compose != cache::Compose::keep) copy_texels(w_, c_, actors_.stays ? cache::rect_of(volume_) : plan.copied);
         for (std::uint32_t const i : plan.actives) draw(w_, caster(i), epoch_);
     }

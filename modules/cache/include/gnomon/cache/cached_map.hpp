@@ -60,10 +60,13 @@ public:
 
     /// All of the last plan was done.
     ///
-    /// expects: of all three: a plan, asked for since the last of them, and not void.
+    /// expects: of all four: a plan, asked for since the last of them, and not void.
     void commit() { commit_part(plan_.statics.size()); }
     /// Only the first `drawn` of the plan's `statics` were drawn; its action and what composes W were done.
     void commit_part(std::size_t drawn);
+    /// All of the plan's `statics` were drawn, but only to the texels of `done`: a strip, or a part of a redraw. Its action and
+    /// what composes W were done. Of a map that does not scroll nothing counts as drawn.
+    void commit_rect(TexelRect const& done);
     /// Nothing of the last plan was done: C and W still show what they showed.
     void postpone() noexcept;
 
@@ -102,6 +105,9 @@ private:
     void gather(Query const& query, std::span<Object const> objects, Occluded const& occluded);
     template <class Query>
     void add_static(Query const& query, std::uint32_t i, Object const& object, Member const* member);
+    /// Is there a plan to commit, and memory?
+    [[nodiscard]] bool take_plan() noexcept;
+    void finish(bool whole);
     void count_commit() noexcept;
     void decide(bool moved) noexcept;
     void compose(std::span<Object const> objects) noexcept;

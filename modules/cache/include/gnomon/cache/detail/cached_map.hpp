@@ -162,15 +162,20 @@ void BasicCachedMap<Rules>::compose(std::span<Object const> objects) noexcept {
 }
 
 template <class Rules>
-void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
-    GNOMON_EXPECT(has_plan_ && drawn <= plan_.statics.size());
+bool BasicCachedMap<Rules>::take_plan() noexcept {
+    GNOMON_EXPECT(has_plan_);
     bool const due = has_plan_ && has_memory();
     has_plan_ = false;
-    if (!due) return;
+    return due;
+}
+
+template <class Rules>
+void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
+    GNOMON_EXPECT(drawn <= plan_.statics.size());
+    if (!take_plan()) return;
     bool const whole = drawn >= plan_.statics.size();
-    bool const redrawn = plan_.action == MapAction::redraw;
     TexelRect const all = rect_of(plan_.volume);
-    complete_ = whole || redrawn ? all : intersection(complete_, all);
+    complete_ = whole || plan_.action == MapAction::redraw ? all : intersection(complete_, all);
     std::size_t count = 0;
     for (Member& m : next_) {
         if (!m.owed || m.ghost) continue;
@@ -181,6 +186,31 @@ void BasicCachedMap<Rules>::commit_part(std::size_t drawn) {
             complete_ = detail::without(complete_, rect_of(m.box));
         }
     }
+    finish(whole);
+}
+
+template <class Rules>
+void BasicCachedMap<Rules>::commit_rect(TexelRect const& done) {
+    TexelRect const all = rect_of(plan_.volume);
+    TexelRect const here = intersection(done, all);
+    if (plan_.statics.empty() || contains(here, all)) return commit();
+    if (planned_fixed_ || is_empty(here)) return commit_part(0);
+    if (!take_plan()) return;
+    TexelRect kept = plan_.action == MapAction::redraw ? all : intersection(complete_, all);
+    for (Member const& m : next_)
+        if (m.owed && !m.ghost && !m.intact) kept = detail::without(kept, rect_of(m.box));
+    complete_ = detail::largest_in_both(kept, here);
+    for (Member& m : next_) {
+        if (!m.owed || m.ghost) continue;
+        TexelRect const seen = intersection(rect_of(m.box), all);
+        m.drawn = m.drawn || !is_empty(intersection(seen, here));
+        m.owed = Rules::remembers_owed && !contains(complete_, seen);
+    }
+    finish(contains(complete_, all));
+}
+
+template <class Rules>
+void BasicCachedMap<Rules>::finish(bool whole) {
     if (whole) next_.erase(std::remove_if(next_.begin(), next_.end(), [](Member const& m) { return m.ghost; }), next_.end());
     members_.swap(next_);
     next_.clear();
@@ -208,10 +238,7 @@ void BasicCachedMap<Rules>::count_commit() noexcept {
 
 template <class Rules>
 void BasicCachedMap<Rules>::postpone() noexcept {
-    GNOMON_EXPECT(has_plan_);
-    bool const due = has_plan_ && has_memory();
-    has_plan_ = false;
-    if (!due) return;
+    if (!take_plan()) return;
     if (plan_.action == MapAction::redraw) {
         state_ = Rules::step(planned_, MapEvent::postponed).next;
         blame_ = plan_.reason;

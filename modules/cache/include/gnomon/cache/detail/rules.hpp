@@ -55,6 +55,10 @@ struct Rules {
     static constexpr bool keeps_ghosts = true;    ///< One that is hidden by what is not drawn yet can still show.
 };
 
+[[nodiscard]] constexpr std::int64_t area_of(TexelRect const& r) noexcept {
+    return is_empty(r) ? 0 : (r.x1 - r.x0) * (r.y1 - r.y0);
+}
+
 /// What is kept of the texels of a volume, of which `box` is missing: the largest rectangle beside it.
 [[nodiscard]] constexpr TexelRect without(TexelRect const& rect, TexelRect const& box) noexcept {
     if (is_empty(rect) || is_empty(intersection(rect, box))) return rect;
@@ -63,15 +67,20 @@ struct Rules {
                                 {rect.x0, rect.y0, rect.x1, box.y0},
                                 {rect.x0, box.y1, rect.x1, rect.y1}};
     TexelRect best{};
-    std::int64_t best_area = 0;
-    for (TexelRect const& side : sides) {
-        if (is_empty(side)) continue;
-        std::int64_t const area = (side.x1 - side.x0) * (side.y1 - side.y0);
-        if (area > best_area) {
-            best = side;
-            best_area = area;
-        }
-    }
+    for (TexelRect const& side : sides)
+        if (area_of(side) > area_of(best)) best = side;
+    return best;
+}
+
+/// The larger of two rectangles, or of those that both together fill: side by side, or one above the other.
+[[nodiscard]] constexpr TexelRect largest_in_both(TexelRect const& a, TexelRect const& b) noexcept {
+    TexelRect best = area_of(a) >= area_of(b) ? a : b;
+    if (is_empty(a) || is_empty(b)) return best;
+    TexelRect const common = intersection(a, b);
+    TexelRect const wide{std::min(a.x0, b.x0), common.y0, std::max(a.x1, b.x1), common.y1};
+    TexelRect const high{common.x0, std::min(a.y0, b.y0), common.x1, std::max(a.y1, b.y1)};
+    if (common.x0 <= common.x1 && area_of(wide) > area_of(best)) best = wide;
+    if (common.y0 <= common.y1 && area_of(high) > area_of(best)) best = high;
     return best;
 }
 
