@@ -66,6 +66,8 @@ class FrameRig {
         b.stage("draw");
         for (std::size_t target : {std::size_t{0}, std::size_t{1}})
             if (failed(draw(b, target))) return failure_;
+        backend::OrthoLayer const whole;
+        if (failed(b.draw_ortho(list_, targets_[0], {&whole, 1}))) return failure_;
         backend::TargetPart const part{targets_[0], 0, backend::Plane::depth, {0, 0, 16, 16}};
         if (failed(b.copy(part, targets_[1], 1, {3, 4}))) return failure_;
         math::Aabb const boxes[] = {{{-1, -1, -4}, {1, 1, -3}}, {{-9, -9, -90}, {9, 9, -80}}};
