@@ -3,6 +3,7 @@
 #include <gnomon/check/check.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -262,6 +263,47 @@ TEST_CASE("an object hidden by one that is not drawn yet is not forgotten", "[ca
     map.commit();
     objects[0].revision = 3;  // now nothing of it can be seen
     CHECK(map.plan(v, objects, first).action == cache::MapAction::none);
+}
+
+TEST_CASE("a map that stays does not look at boxes, which may be another light's", "[cache]") {
+    std::vector<cache::Object> objects{static_object(1, {0, 0, 0, 5, 5, 5}), static_object(2, {})};
+    cache::CachedMap map;
+    auto const update = [&] {
+        auto const action = map.plan_fixed(objects, [](std::uint32_t) { return true; }).action;
+        map.commit();
+        return action;
+    };
+    CHECK(update() == cache::MapAction::redraw);
+    objects[0].box = {100, 0, 0, 105, 5, 5};
+    CHECK(update() == cache::MapAction::none);
+    ++objects[0].revision;
+    CHECK(update() == cache::MapAction::redraw);
+    CHECK(map.plan({.width = 8, .height = 8}, objects).reason == cache::Reason::projection_changed);
+}
+
+TEST_CASE("any whole numbers make a legal box", "[cache][property]") {
+    auto const number = [](Choices& c) {
+        int const kind = integers(0, 2)(c);
+        std::int64_t const small = integers(-20, 20)(c);
+        std::int64_t const any = integers(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max())(c);
+        return kind == 0 ? small : kind == 1 ? any : any < 0 ? std::numeric_limits<std::int64_t>::min() - std::min<std::int64_t>(small, 0) : std::numeric_limits<std::int64_t>::max() - std::max<std::int64_t>(small, 0);
+    };
+    for_all(cases(2000), vector_of(array_of<6>(number), 0, 6), array_of<3>(integers(-3, 3)), integers(0, 3), [](auto const& boxes, auto const& by, int far) {
+        std::int64_t const base = far == 0 ? 0 : far == 1 ? cache::max_units - 16 : 16 - cache::max_units;
+        cache::Volume v{.x = base, .y = base, .z = base, .width = 8, .height = 8, .far_code = 9};
+        std::vector<cache::Object> objects;
+        for (auto const& b : boxes) objects.push_back(static_object(static_cast<std::uint32_t>(objects.size()), {b[0], b[1], b[2], b[3], b[4], b[5]}));
+        cache::CachedMap map;
+        std::size_t const due = map.plan(v, objects).statics.size();
+        map.commit_part(due / 2);
+        v.x += by[0], v.y += by[1], v.z += by[2];
+        (void)map.plan(v, objects);
+        map.commit_rect({v.x, v.y, v.x + 3, v.y + 8});
+        (void)map.plan(v, objects);
+        map.commit();
+        CHECK(map.state() == cache::MapState::valid);
+        CHECK(map.plan(v, objects).action == cache::MapAction::none);
+    });
 }
 
 TEST_CASE("a plan made before the light moved is void", "[cache]") {

@@ -52,10 +52,10 @@ public:
 
     /// The same for a map that does not move: a spot's, or one face of a cube.
     ///
-    /// `touches(i)`: may objects[i] write a texel of this map? Never a false no.
+    /// `touches(i)`: may objects[i] write a texel of this map? Never a false no. Boxes are not looked at.
     template <class Touches, class Occluded = NeverOccluded>
     Plan const& plan_fixed(std::span<Object const> objects, Touches const& touches, Occluded const& occluded = {}) {
-        return make_plan(detail::FixedQuery<Touches>{touches}, objects, occluded);
+        return make_plan(detail::FixedQuery<Rules, Touches>{touches}, objects, occluded);
     }
 
     /// All of the last plan was done.

@@ -73,7 +73,7 @@ void BasicCachedMap<Rules>::check_members(Query const& query, std::span<Object c
     for (Member const& m : members_) {
         Object const* const o = seeker.find(m.id);
         ++plan_.counts.members;
-        if (!m.drawn || Rules::unchanged(m, o)) continue;
+        if (!m.drawn || query.unchanged(m, o)) continue;
         if (!query.keeps(m, o)) ++plan_.counts.left;
         else suppose(MapEvent::member_changed, o != nullptr ? reason_of(o->cause) : Reason::member_missing, m.id);
     }
@@ -90,7 +90,7 @@ void BasicCachedMap<Rules>::gather(Query const& query, std::span<Object const> o
         Object const& o = objects[i];
         bool const is_static = o.state == ObjectState::static_;
         while (at < members_.size() && members_[at].id < o.id) ++at;
-        bool const known = keeps && at < members_.size() && members_[at].id == o.id && Rules::unchanged(members_[at], &o);
+        bool const known = keeps && at < members_.size() && members_[at].id == o.id && query.unchanged(members_[at], &o);
         Member const* const member = known ? &members_[at] : nullptr;
         if (!is_static && o.state != ObjectState::active) {
             ++counts.not_casting;

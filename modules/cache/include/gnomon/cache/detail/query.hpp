@@ -24,6 +24,9 @@ struct ScrollQuery {
     [[nodiscard]] constexpr bool keeps(Member const& m, Object const* o) const noexcept {
         return Rules::in_kept(m, o, before, now);
     }
+    [[nodiscard]] constexpr bool unchanged(Member const& m, Object const* o) const noexcept {
+        return Rules::unchanged(m, o);
+    }
     [[nodiscard]] constexpr bool moved() const noexcept { return Rules::shift(before, now) != Shift{}; }
     /// Does C show all of the box's depths where it shows its texels?
     [[nodiscard]] constexpr bool depths_kept(Box const& box) const noexcept {
@@ -39,7 +42,7 @@ struct ScrollQuery {
 };
 
 /// A local light's map: whatever the caller's test says, in the light's own space.
-template <class Touches>
+template <class Rules, class Touches>
 struct FixedQuery {
     Touches const& test;
     Volume before{};
@@ -49,6 +52,11 @@ struct FixedQuery {
     [[nodiscard]] bool touches(Object const&, std::uint32_t i) const { return test(i); }
     [[nodiscard]] constexpr bool uncovers(Box const&) const noexcept { return false; }
     [[nodiscard]] constexpr bool keeps(Member const&, Object const*) const noexcept { return true; }
+    /// Boxes are of no use here: they may be those of another light, which turns.
+    [[nodiscard]] constexpr bool unchanged(Member m, Object const* o) const noexcept {
+        if (o != nullptr) m.box = o->box;
+        return Rules::unchanged(m, o);
+    }
     [[nodiscard]] constexpr bool moved() const noexcept { return false; }
     [[nodiscard]] constexpr bool depths_kept(Box const&) const noexcept { return true; }
     [[nodiscard]] constexpr std::optional<MapEvent> change() const noexcept { return std::nullopt; }
