@@ -179,6 +179,14 @@ TEST_CASE("scrolled and filled maps equal maps drawn anew, over walks with jumps
     });
 }
 
+TEST_CASE("scrolled and filled maps equal maps drawn anew, over a hundred thousand frames", "[walk][.full]") {
+    for (std::uint32_t const seed : {1U, 2U, 3U, 4U, 5U}) {
+        Walked const walked = walk(seed, 20000, seed == 1 ? 0 : std::int64_t{1} << (30 + 2 * seed), {});
+        CHECK(walked.wrong_frames == 0);
+        CHECK(walked.walker.exposed_ == walked.walker.expected_exposed_);
+    }
+}
+
 TEST_CASE("each printed error is seen by the walk", "[walk][mutation]") {
     Mutation m;
     m.wrapped_shift = true;

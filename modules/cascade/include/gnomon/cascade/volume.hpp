@@ -81,13 +81,17 @@ struct LightBox {
     return sum / unit_m < static_cast<double>(max_light_units);  // false for a NaN
 }
 
-/// The light box of all that is drawn of what lies in a box of the world: every texel that a triangle within it can
-/// cover and every code it can give, for corners that are rounded to the nearest 1/256 unit.
+/// The light box of all that is drawn of what lies in a box of the world: every texel whose centre a triangle within it
+/// can cover, and every code it can give there.
 ///
-/// `bounds` is relative to `offset_m`, which is relative to the anchor. One unit wider than the exact box on each side
-/// (two at the far end, for a depth that is rounded up): corners move by 1/512 and 2^-7 of a unit of error in double,
-/// and codes are within 0.51 of the plane.
+///     x0 = ceil(lo / texel - 1/2 - e),  x1 = floor(hi / texel - 1/2 + e) + 1
+///     z0 = floor(lo / unit + 1/2 - e),  z1 = floor(hi / unit + 1/2 + e) + 1,   e = 2^-6
 ///
+/// e holds what is rounded: corners to the nearest 1/256 unit (1/512), depths at centres (1/500 of a code), and sums in
+/// double (2^-7, `is_near`). A box between two columns of centres is empty. As light space does not move with the
+/// camera, a box stays as it is until its object, the light or the units change.
+///
+/// `bounds` is relative to `offset_m`, which is relative to the anchor.
 /// expects: `v` from a placed cascade; only its units are read.
 /// returns: nothing for an empty box, NaN, and what is not near (`is_near`)
 [[nodiscard]] inline std::optional<LightBox> try_box_in_light(LightFrame const& light, Volume const& v,
@@ -105,9 +109,11 @@ struct LightBox {
             hi[axis] = at[axis] > hi[axis] ? at[axis] : hi[axis];
         }
     }
-    auto const begin = [](double x) { return static_cast<std::int64_t>(std::floor(x)) - 1; };
-    auto const end = [](double x) { return static_cast<std::int64_t>(std::ceil(x)) + 1; };
-    return LightBox{begin(lo.x), begin(lo.y), begin(lo.z), end(hi.x), end(hi.y), end(hi.z) + 1};
+    constexpr double e = 0x1p-6;
+    auto const down = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
+    auto const up = [](double x) { return static_cast<std::int64_t>(std::ceil(x)); };
+    return LightBox{up(lo.x - 0.5 - e),       up(lo.y - 0.5 - e),       down(lo.z + 0.5 - e),
+                    down(hi.x - 0.5 + e) + 1, down(hi.y - 0.5 + e) + 1, down(hi.z + 0.5 + e) + 1};
 }
 
 }  // namespace gnomon::cascade
