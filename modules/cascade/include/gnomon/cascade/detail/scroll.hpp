@@ -35,8 +35,8 @@ struct ScrollKernel {
     ///
     /// Without a branch, and with all that does not change in a local, as compilers need it to vectorize.
     template <bool Reversed>
-    [[gnu::noinline]] void block(T const* __restrict from, T* __restrict to, std::int32_t n,
-                                 ScrollStats& stats) const noexcept {
+    [[gnu::noinline]] void float_block(T const* __restrict from, T* __restrict to, std::int32_t n,
+                                       ScrollStats& stats) const noexcept {
         Number const by = Reversed ? -add : add;
         Number const most = last;
         Number const least{};
@@ -62,6 +62,37 @@ struct ScrollKernel {
         stats.clamped += n - unwritten_count - inside_count;
     }
 
+    /// The same of codes, in 16-bit numbers: `least` and `most` are the first and last ones that stay exact.
+    ///
+    ///     max(held, lower) - lower  or  min(held, last - raise) + raise,  one of lower and raise being 0
+    [[gnu::noinline]] void code_block(T const* __restrict from, T* __restrict to, std::int32_t n,
+                                      ScrollStats& stats) const noexcept {
+        std::int32_t const by = reversed ? -add : add;
+        auto const raise = static_cast<T>(by > 0 ? by : 0);
+        auto const lower = static_cast<T>(by < 0 ? -by : 0);
+        auto const highest = static_cast<T>(last - raise);
+        auto const unwritten = static_cast<T>(clear());
+        auto const least = static_cast<T>(reversed ? lower + 1 : lower);
+        auto const most = static_cast<T>(reversed ? highest : highest - 1);
+        bool const any_inside = reversed ? lower < last : highest > 0;
+        T unwritten_count = 0;  // a block has few texels
+        T inside_count = 0;
+        for (std::int32_t i = 0; i < n; ++i) {
+            T const held = from[i];
+            T const at_least = held > lower ? held : lower;
+            auto const lowered = static_cast<T>(at_least - lower);
+            T const at_most = lowered < highest ? lowered : highest;
+            auto const moved = static_cast<T>(at_most + raise);
+            to[i] = held == unwritten ? unwritten : moved;
+            unwritten_count = static_cast<T>(unwritten_count + (held == unwritten ? 1 : 0));
+            inside_count = static_cast<T>(inside_count + ((held >= least) & (held <= most) ? 1 : 0));
+        }
+        std::int32_t const inside = any_inside ? inside_count : 0;
+        stats.moved += inside;
+        stats.unwritten += unwritten_count;
+        stats.clamped += n - unwritten_count - inside;
+    }
+
     /// Texels [x0, x1) of a row, in blocks from left to right or the other way, each read whole before it is written:
     /// `from` may be `to`.
     ScrollStats shift(T const* from, T* to, std::int32_t x0, std::int32_t x1, bool upward) const noexcept {
@@ -73,14 +104,10 @@ struct ScrollKernel {
             std::int32_t const n = std::min(size, x1 - x0 - done);
             std::int32_t const x = upward ? x0 + done : x1 - done - n;
             std::copy_n(from + x + dx, n, held);
-            if (is_code && add == Number{}) {
-                auto const none = static_cast<std::int64_t>(std::count(held, held + n, static_cast<T>(clear())));
-                stats.unwritten += none;
-                stats.moved += n - none;
-                std::copy_n(held, n, to + x);
-                continue;
-            }
-            reversed ? block<true>(held, moved, n, stats) : block<false>(held, moved, n, stats);
+            if constexpr (is_code)
+                code_block(held, moved, n, stats);
+            else
+                reversed ? float_block<true>(held, moved, n, stats) : float_block<false>(held, moved, n, stats);
             std::copy_n(moved, n, to + x);
         }
         return stats;
