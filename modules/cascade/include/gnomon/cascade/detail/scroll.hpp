@@ -85,7 +85,7 @@ struct ScrollKernel {
             auto const moved = static_cast<T>(at_most + raise);
             to[i] = held == unwritten ? unwritten : moved;
             unwritten_count = static_cast<T>(unwritten_count + (held == unwritten ? 1 : 0));
-            inside_count = static_cast<T>(inside_count + ((held >= least) & (held <= most) ? 1 : 0));
+            inside_count = static_cast<T>(inside_count + (((held >= least) & (held <= most)) ? 1 : 0));
         }
         std::int32_t const inside = any_inside ? inside_count : 0;
         stats.moved += inside;
