@@ -4,7 +4,9 @@
 #include <gnomon/pipeline/lighting.hpp>
 #include <gnomon/scene.hpp>
 
+#include "../src/lighting/lighting.hpp"
 #include "../src/lighting/surface_table.hpp"
+#include "../src/workspace.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -131,4 +133,43 @@ TEST_CASE("a pass of depth takes the overdraw out of forward shading", "[pipelin
     CHECK(tiled < every);
     CHECK(prez < tiled);
     CHECK(clustered <= prez);
+}
+
+TEST_CASE("clustered forward shading evaluates what clustered deferred does, by lists of the clusters with samples", "[pipeline][lighting][forward]") {
+    TexturedTree const tree;
+    math::View const view = scene::make_view(tree.scene.cameras.front(), math::ivec2(128, 96)).value();
+    pipeline::Workspace workspace;
+    for (pipeline::SampleRule const rule : {pipeline::SampleRule::formula, pipeline::SampleRule::exact}) {
+        auto const frame = tree.frame(view, rule);
+        auto const forward = light_by("clustered-forward", frame, tree.lights, workspace);
+        auto const deferred = light_by("clustered-deferred", frame, tree.lights, workspace);
+        std::size_t otherwise = 0;
+        for (std::size_t i = 0; i < frame.samples.size(); ++i) otherwise += forward.computations[i] != deferred.computations[i] ? 1U : 0U;
+        // Where samples are exact, a fragment's position is another by some 1e-7: now and then it is in the next cluster.
+        CHECK(otherwise <= (rule == pipeline::SampleRule::formula ? 0 : frame.samples.size() / 100));
+        for (std::uint32_t const n : forward.computations) REQUIRE(n < tree.lights.size());  // none fell back on all lights
+    }
+}
+
+TEST_CASE("a fragment in a cluster without samples is under all lights", "[pipeline][lighting][forward]") {
+    TexturedTree const tree;
+    math::View const view = scene::make_view(tree.scene.cameras.front(), math::ivec2(120, 90)).value();
+    pipeline::Workspace workspace;
+    auto frame = tree.frame(view, pipeline::SampleRule::formula);
+    (void)light_by("clustered-forward", frame, tree.lights, workspace);
+    std::vector<math::vec4> const whole = workspace.state().lighting.forward.color;
+    std::size_t const half = frame.samples.size() / 2;
+    frame.samples.pixel.resize(half);
+    frame.samples.triangle.resize(half);
+    frame.samples.position.resize(half);
+    auto const output = light_by("clustered-forward", frame, tree.lights, workspace);
+    std::vector<math::vec4> const& cut = workspace.state().lighting.forward.color;
+    REQUIRE(cut.size() == whole.size());
+    std::size_t fallen = 0, differ = 0;
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        differ += cut[i].x != whole[i].x || cut[i].y != whole[i].y || cut[i].z != whole[i].z ? 1U : 0U;
+        fallen += cut[i].w >= static_cast<float>(tree.lights.size()) ? 1U : 0U;
+    }
+    CHECK(differ == 0);
+    CHECK(fallen > half / 4);
 }

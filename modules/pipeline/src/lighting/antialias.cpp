@@ -38,12 +38,8 @@ void fit_samples(Verbs& verbs, Frame const& frame, ForwardState& f) {
 Result<AntialiasedOutput> shade_antialiased(LightingRun const& on, AntialiasConfig const& config) {
     GNOMON_EXPECT(config.tile_px > 0);
     Verbs verbs(on.device);
-    Workspace::State& state = on.workspace.state();
-    state.move_to(on.device);
-    Lighting& l = state.lighting;
+    Lighting& l = begin_forward(on, verbs);
     ForwardState& f = l.forward;
-    prepare_lights(on.frame, on.lights, l.prepared);
-    f.fit(verbs, on.frame);
     fit_samples(verbs, on.frame, f);
     Stopwatch watch;
     auto const grid = list_by_tile(on, l, static_cast<std::uint32_t>(config.tile_px), nullptr);
@@ -73,7 +69,7 @@ Result<AntialiasedOutput> shade_antialiased(LightingRun const& on, AntialiasConf
         output.image.emplace_back(c.x, c.y, c.z);
         computations += static_cast<std::uint64_t>(c.w);
     }
-    output.counts = {{"lighting_computations", computations}, {"light_pairs", grid->indices.size()}, {"lists", grid->cells.size()}};
+    output.counts = {{"lighting_computations", computations}, {"light_pairs", grid->pairs}, {"lists", grid->lists}};
     output.stages = std::move(stages);
     output.stages.insert(output.stages.end(), device_stages.begin(), device_stages.end());
     return output;

@@ -35,7 +35,7 @@ Result<ForwardGrid> make_lists(ForwardKind kind, LightingRun const& on, Lighting
             TileRanges const ranges = ranges_of_samples(on.frame, tile);
             return list_by_tile(on, l, tile, &ranges);
         }
-        case ForwardKind::clustered: return list_by_cluster(on, l, static_cast<std::uint32_t>(on.params.integer("tile")), deepest_sample(on.frame, on.executor));
+        case ForwardKind::clustered: return list_by_sample_clusters(on, l);
     }
     return list_all(on.frame, l.prepared.shaded.size());
 }
@@ -77,8 +77,8 @@ LightingOutput gather(Frame const& frame, ForwardGrid const& grid, std::span<mat
         output.computations.push_back(static_cast<std::uint32_t>(c.w));
     }
     output.counts = {{"lighting_computations", computations},
-                     {"light_pairs", grid.indices.size()},
-                     {"lists", grid.cells.size()},
+                     {"light_pairs", grid.pairs},
+                     {"lists", grid.lists},
                      {"lights_left_out", grid.left_out}};
     output.bytes = {{"color", color.size_bytes()},
                     {"lists", grid.cells.size() * sizeof(lights::Cell) + grid.indices.size() * sizeof(std::uint32_t)}};
@@ -87,12 +87,8 @@ LightingOutput gather(Frame const& frame, ForwardGrid const& grid, std::span<mat
 
 Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
     Verbs verbs(on.device);
-    Workspace::State& state = on.workspace.state();
-    state.move_to(on.device);
-    Lighting& l = state.lighting;
+    Lighting& l = begin_forward(on, verbs);
     ForwardState& f = l.forward;
-    prepare_lights(on.frame, on.lights, l.prepared);
-    f.fit(verbs, on.frame);
     Stopwatch watch;
     auto grid = make_lists(kind, on, l);
     if (!grid) return std::move(grid).failure();
@@ -118,6 +114,14 @@ Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
 }
 
 }  // namespace
+
+Lighting& begin_forward(LightingRun const& on, Verbs& verbs) {
+    Workspace::State& state = on.workspace.state();
+    state.move_to(on.device);
+    prepare_lights(on.frame, on.lights, state.lighting.prepared);
+    state.lighting.forward.fit(verbs, on.frame);
+    return state.lighting;
+}
 
 void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass) {
     ForwardState& f = l.forward;

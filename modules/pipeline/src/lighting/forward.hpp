@@ -55,6 +55,8 @@ struct ForwardGrid {
     std::vector<float> depth_m{0.0F, 0.0F};
     std::vector<lights::Cell> cells;
     std::vector<std::uint32_t> indices;
+    std::size_t lists = 0;       ///< Cells that have one of their own; the others share one of all lights.
+    std::size_t pairs = 0;       ///< Indices of those.
     std::uint64_t left_out = 0;  ///< Lights that are none, or had no room.
 };
 
@@ -68,6 +70,9 @@ struct ForwardPass {
     backend::Load color = backend::Load::clear;
 };
 void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass);
+
+/// Sets up the workspace, the lights and what is drawn.
+[[nodiscard]] Lighting& begin_forward(LightingRun const& on, Verbs& verbs);
 
 /// Stages lights and lists.
 void stage_lists(Verbs& verbs, Lighting& l, ForwardGrid const& grid);
@@ -92,7 +97,10 @@ struct TileRanges {
 [[nodiscard]] TileRanges ranges_of_samples(Frame const& frame, std::uint32_t tile_px);
 /// Lights by tile; with `ranges`, without those before or behind all of the tile's.
 [[nodiscard]] Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, std::uint32_t tile_px, TileRanges const* ranges);
-/// Lights by cluster, of all clusters up to a depth: a fragment need not be a sample.
+/// Lights by cluster, of the clusters that have samples: a fragment in another one, as where the device shows another of two
+/// surfaces at one depth, is under all lights. The run has a parameter `tile`.
+[[nodiscard]] Result<ForwardGrid> list_by_sample_clusters(LightingRun const& on, Lighting& l);
+/// Lights by cluster, of all clusters up to a depth: for fragments that are no samples.
 [[nodiscard]] Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l, std::uint32_t tile_px, double deepest_m);
 
 }  // namespace gnomon::pipeline

@@ -6,7 +6,9 @@
 #include <gnomon/cull/depth_range.hpp>
 #include <gnomon/cull/rows.hpp>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,9 +17,7 @@ namespace gnomon::pipeline {
 
 namespace {
 
-/// Lists of every cluster of a grid.
-ForwardGrid list_by(cluster::Grid const& grid, std::uint32_t tile, Lighting& l) {
-    cluster::GridView const view = grid.view();
+ForwardGrid make_empty(cluster::GridView const& view, std::uint32_t tile) {
     ForwardGrid made;
     made.constants.tile = tile;
     made.constants.columns = view.columns();
@@ -25,10 +25,63 @@ ForwardGrid list_by(cluster::Grid const& grid, std::uint32_t tile, Lighting& l) 
     made.constants.slices = view.slices();
     made.depth_m.assign(view.depth_m.begin(), view.depth_m.end());
     made.cells.resize(view.clusters());
+    return made;
+}
+
+/// Lists of every cluster of a grid.
+ForwardGrid list_by(cluster::Grid const& grid, std::uint32_t tile, Lighting& l) {
+    cluster::GridView const view = grid.view();
+    ForwardGrid made = make_empty(view, tile);
     auto const report = lights::count_lists(cull::make_row_grid(view), l.prepared.culled, {}, l.assignment, made.cells);
     made.indices.resize(report.written);
     lights::fill_lists(l.assignment, std::span<std::uint32_t>(made.indices));
+    made.lists = made.cells.size();
+    made.pairs = made.indices.size();
     made.left_out = report.lights.bad + std::uint64_t{report.left_out};
+    return made;
+}
+
+/// Clusters that have samples, whose depths may be off a little, ascending. All of a sample's clusters, if it is near a border.
+void find_occupied(LightingRun const& on, cluster::Grid const& grid, Lighting& l) {
+    std::vector<std::uint8_t> occupied(grid.clusters(), 0);
+    SampleDepth const depth_of(on.frame);
+    auto const width = static_cast<std::uint32_t>(on.frame.view.size_px.x);
+    on.executor.parallel_for(on.frame.samples.size(), sample_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t const pixel = on.frame.samples.pixel[i];
+            float const depth = depth_of(on.frame.samples.position[i]);
+            for (float const off : {-l.prepared.rounding_m, l.prepared.rounding_m}) {
+                std::uint32_t const at = cluster::cluster_at(grid, math::uvec2(pixel % width, pixel / width), depth + off);
+                std::atomic_ref<std::uint8_t>(occupied[at]).store(1, std::memory_order_relaxed);
+            }
+        }
+    });
+    l.clusters.clear();
+    cluster::GridView const view = grid.view();
+    for (std::size_t i = 0; i < occupied.size(); ++i)
+        if (occupied[i] != 0) l.clusters.push_back(cluster::coordinates_of(view, i));
+}
+
+/// Lists of `l.clusters`; the other cells have one of all lights that are sound.
+ForwardGrid list_occupied(LightingRun const& on, cluster::Grid const& grid, Lighting& l) {
+    cluster::GridView const view = grid.view();
+    ForwardGrid made = make_empty(view, static_cast<std::uint32_t>(on.params.integer("tile")));
+    lights::build_light_tree(l.prepared.culled, ~0U, l.tree_work, l.tree, on.executor);
+    cull::RowGrid const rows = cull::make_row_grid(view);
+    l.list_cells.resize(l.clusters.size());
+    lights::SparseConfig const config{.capacity = 0xFFFFFFFFU - l.prepared.culled.size()};
+    auto const report = lights::count_sparse_lists({rows, l.prepared.culled, l.tree, l.clusters}, config, l.sparse, l.list_cells, on.executor);
+    made.indices.resize(report.written);
+    lights::fill_sparse_lists(l.sparse, l.list_cells, std::span<std::uint32_t>(made.indices), on.executor);
+    made.lists = l.clusters.size();
+    made.pairs = made.indices.size();
+    made.left_out = report.lights.bad + std::uint64_t{report.left_out};
+    for (std::uint32_t i = 0; i < l.prepared.culled.size(); ++i)
+        if (lights::is_sound(l.prepared.culled[i])) made.indices.push_back(i);
+    lights::Cell const all{static_cast<std::uint32_t>(made.pairs), static_cast<std::uint32_t>(made.indices.size() - made.pairs)};
+    std::fill(made.cells.begin(), made.cells.end(), all);
+    for (std::size_t i = 0; i < l.clusters.size(); ++i)
+        made.cells[view.index(l.clusters[i].column, l.clusters[i].row, l.clusters[i].slice)] = l.list_cells[i];
     return made;
 }
 
@@ -47,6 +100,7 @@ void cull_tiles(std::span<cull::DepthRange const> ranges, std::span<lights::Ligh
         grid.cells[tile] = {begin, kept - begin};
     }
     grid.indices.resize(kept);
+    grid.pairs = kept;
 }
 
 }  // namespace
@@ -73,6 +127,8 @@ ForwardGrid list_all(Frame const& frame, std::size_t lights) {
     made.cells = {{0, static_cast<std::uint32_t>(lights)}};
     made.indices.resize(lights);
     std::iota(made.indices.begin(), made.indices.end(), 0U);
+    made.lists = 1;
+    made.pairs = lights;
     return made;
 }
 
@@ -86,6 +142,13 @@ Result<ForwardGrid> list_by_tile(LightingRun const& on, Lighting& l, std::uint32
     ForwardGrid made = list_by(*grid, tile_px, l);
     if (ranges != nullptr) cull_tiles(ranges->ranges, l.prepared.culled, made);
     return made;
+}
+
+Result<ForwardGrid> list_by_sample_clusters(LightingRun const& on, Lighting& l) {
+    auto grid = make_cluster_grid(on);
+    if (!grid) return std::move(grid).failure();
+    find_occupied(on, *grid, l);
+    return list_occupied(on, *grid, l);
 }
 
 Result<ForwardGrid> list_by_cluster(LightingRun const& on, Lighting& l, std::uint32_t tile_px, double deepest_m) {

@@ -84,6 +84,7 @@ void prepare_lights(Frame const& frame, std::span<Light const> lights, PreparedL
     float const rounding = rounding_m(frame);
     out.shaded.clear();
     out.culled.clear();
+    out.rounding_m = rounding;
     out.facing_slack_m = 0.0F;
     for (Light const& light : lights) {
         math::vec3 const position = math::to_float(light.position_m - frame.geometry->origin_m);

@@ -26,6 +26,7 @@ namespace gnomon::pipeline {
 struct PreparedLights {
     std::vector<lights::ShadedLight> shaded;  ///< Work space.
     std::vector<lights::Light> culled;        ///< Culling space of the frame's view.
+    float rounding_m = 0.0F;                  ///< What a sample's position, its depth and a light's place are off by, twice that.
     float facing_slack_m = 0.0F;              ///< How far apart the two may have a light and a sample: for culling by normals.
 };
 

@@ -146,11 +146,7 @@ Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<mat
                                             TransparencyConfig const& config) {
     GNOMON_EXPECT(on.frame.leaves_out_blended && radiance.size() == on.frame.samples.size() && config.tile_px > 0);
     Verbs verbs(on.device);
-    Workspace::State& state = on.workspace.state();
-    state.move_to(on.device);
-    Lighting& l = state.lighting;
-    prepare_lights(on.frame, on.lights, l.prepared);
-    l.forward.fit(verbs, on.frame);
+    Lighting& l = begin_forward(on, verbs);
     Stopwatch watch;
     SortedDraw const sorted(*on.frame.geometry, sort_back_to_front(on.frame));
     double const sort_ms = watch.lap_ms();
@@ -169,8 +165,8 @@ Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<mat
     auto const device_stages = verbs(on.device.finish());
     if (!verbs.good()) return verbs.failure();
     TransparentOutput output = composite(on.frame, radiance, l.forward.color, counted);
-    output.counts.insert(output.counts.end(), {{"light_pairs", grid->indices.size()},
-                                               {"lists", grid->cells.size()},
+    output.counts.insert(output.counts.end(), {{"light_pairs", grid->pairs},
+                                               {"lists", grid->lists},
                                                {"transparent_triangles", sorted.triangles.size()}});
     output.stages = {{"sort", sort_ms}, {"nearest", nearest_ms}, {"assign", assign_ms}};
     output.stages.insert(output.stages.end(), device_stages.begin(), device_stages.end());
