@@ -358,6 +358,33 @@ TEST_CASE("a shift of the world's origin redraws nothing and moves no map", "[ca
     }
 }
 
+TEST_CASE("places along a path are the same whole numbers on every compiler and machine", "[cascades][golden]") {
+    std::uint64_t hash = 14695981039346656037U;
+    auto const mix = [&](std::int64_t x) { hash = (hash ^ static_cast<std::uint64_t>(x)) * 1099511628211U; };
+    math::View camera;
+    camera.window = {-0.9, 0.9, -0.5, 0.5};
+    for (Extent const extent : {Extent::diameter, Extent::sphere}) {
+        CascadeConfig config = ordinary();
+        config.fit.extent = extent;
+        config.fit.guard_px = 4;
+        Cascades state;
+        for (int i = 0; i < 500; ++i) {
+            camera.eye_m = math::dvec3(1e7 + 0.31 * i, 1.7, -0.17 * i);
+            camera = math::looking_along(camera, math::dvec3((i * 37 % 101) - 50.0, -3.0, (i * 53 % 97) - 48.5),
+                                         {0.0, 1.0, 0.0});
+            CascadeFrame const frame = cascade::plan(state, config, camera).value();
+            for (std::uint32_t k = 0; k < frame.count; ++k) {
+                Volume const& v = frame.cascades[k].volume;
+                for (std::int64_t const n : {v.at.x, v.at.y, v.at.z, static_cast<std::int64_t>(v.texel_m * 0x1p40)})
+                    mix(n);
+                mix(static_cast<std::int64_t>(frame.cascades[k].update.action));
+            }
+            cascade::commit(state, frame);
+        }
+    }
+    CHECK(hash == 11015732304268825855U);
+}
+
 TEST_CASE("what cannot be placed is refused with its value", "[cascades][errors]") {
     double const nan = std::numeric_limits<double>::quiet_NaN();
     auto const refusal = [](auto const& change) {
