@@ -32,8 +32,8 @@ struct Actors {
     }
     void place(Caster& c) {
         // crowded: most of them lie before each other
-        std::int64_t const x = volume.x + (crowded ? random.within(0, 2) : random.within(-10, 14));
-        std::int64_t const y = volume.y + (crowded ? random.within(0, 2) : random.within(-10, 14));
+        std::int64_t const x = volume.x + (crowded ? random.within(-2, 4) : random.within(-10, 14));
+        std::int64_t const y = volume.y + (crowded ? random.within(-2, 4) : random.within(-10, 14));
         std::int64_t const z = volume.z + random.within(-16, 34);
         int const wide = random.within(1, 8);
         int const high = random.within(1, 8);

@@ -101,6 +101,9 @@ TEST_CASE("an object at the border is drawn to the strip that it reaches into, a
     map.commit();
     auto const& p = map.plan({.x = 20, .width = 100, .height = 100}, objects);
     CHECK(p.shift == cache::Shift{20, 0, 0});
+    CHECK(p.before == cache::Volume{.width = 100, .height = 100});
+    CHECK(p.volume == cache::Volume{.x = 20, .width = 100, .height = 100});
+    CHECK(p.counts.members == 2);
     CHECK(p.statics.size() == 1);
     CHECK(p.statics[0] == 0);
     CHECK(p.counts.uncovered == 1);
@@ -129,6 +132,10 @@ TEST_CASE("the plan says why, and which object is to blame", "[cache]") {
     CHECK(map.state() == cache::MapState::invalid);
     CHECK(map.stale_updates() == 1);
     CHECK(map.plan(v, objects).reason == cache::Reason::member_deformed);  // still, a frame later
+    CHECK(map.plan(v, objects).culprit == cache::ObjectId{7});
+    map.notify(cache::MapEvent::content_lost);
+    CHECK(map.plan(v, objects).reason == cache::Reason::content_lost);
+    CHECK(map.plan(v, objects).culprit.is_none());
     map.commit();
     CHECK(map.stale_updates() == 0);
     objects.pop_back();
@@ -138,7 +145,7 @@ TEST_CASE("the plan says why, and which object is to blame", "[cache]") {
     CHECK(map.plan(v, objects).reason == cache::Reason::light_posed);
     map.commit();
     CHECK(map.history().redraws == 4);
-    CHECK(map.history().of(cache::Reason::member_deformed) == 1);
+    CHECK(map.history().of(cache::Reason::content_lost) == 1);
     CHECK(map.history().postponed == 1);
     CHECK(adds_up(map.history()));
 }
@@ -263,6 +270,74 @@ TEST_CASE("an object hidden by one that is not drawn yet is not forgotten", "[ca
     map.commit();
     objects[0].revision = 3;  // now nothing of it can be seen
     CHECK(map.plan(v, objects, first).action == cache::MapAction::none);
+}
+
+TEST_CASE("a ghost that comes to light again is drawn where the map moved meanwhile", "[cache]") {
+    // 1 reaches beyond the map; 2 covers all of it that the map shows, and is not drawn to C when the map moves
+    std::vector<cache::Object> objects{static_object(1, {4, 0, 9, 20, 4, 9}), static_object(2, {0, 0, 2, 40, 8, 3})};
+    objects[1].state = cache::ObjectState::active;
+    auto const first = [](std::uint32_t i) { return i == 0; };
+    cache::CachedMap map;
+    (void)map.plan({.width = 16, .height = 16}, objects);
+    map.commit();
+    objects[1].state = cache::ObjectState::static_;
+    cache::Volume const moved{.x = 2, .width = 16, .height = 16};
+    (void)map.plan(moved, objects, first);
+    SECTION("nothing drawn") { map.commit_part(0); }
+    SECTION("a part that is not near it") { map.commit_rect({2, 10, 18, 16}); }
+    objects[1].state = cache::ObjectState::active;
+    auto const& plan = map.plan(moved, objects);
+    CHECK(plan.action == cache::MapAction::add);
+    CHECK(plan.statics.size() == 1);
+    CHECK(plan.counts.owed == 1);
+}
+
+TEST_CASE("a caster that was never drawn to C is no reason to redraw it", "[cache]") {
+    std::vector<cache::Object> objects{static_object(1, {0, 0, 0, 4, 4, 4}), static_object(2, {6, 6, 0, 8, 8, 4})};
+    cache::Volume const v{.width = 16, .height = 16};
+    cache::CachedMap map;
+    (void)map.plan(v, objects);
+    map.commit_part(1);
+    objects[1].state = cache::ObjectState::active;
+    CHECK(map.plan(v, objects).action == cache::MapAction::none);
+    map.commit();
+    CHECK(map.state() == cache::MapState::valid);
+    objects[1].state = cache::ObjectState::static_;
+    (void)map.plan(v, objects);
+    map.commit_part(0);
+    (void)map.plan(v, objects);
+    map.commit_part(0);  // put off twice
+    ++objects[1].revision;
+    CHECK(map.plan(v, objects).action == cache::MapAction::add);
+}
+
+void ignore_contract(core::ContractViolation const&) {}
+
+TEST_CASE("a void plan cannot be committed, nor one plan twice", "[cache]") {
+    auto const previous = core::set_contract_handler(&ignore_contract);
+    std::vector<cache::Object> const objects{static_object(1, {0, 0, 0, 4, 4, 4})};
+    cache::Volume const v{.width = 16, .height = 16};
+    cache::CachedMap map;
+    map.commit();
+    CHECK(map.state() == cache::MapState::placed);
+    (void)map.plan(v, objects);
+    map.notify(cache::MapEvent::granted);
+    map.commit();
+    CHECK(map.state() == cache::MapState::placed);
+    (void)map.plan(v, objects);
+    map.commit();
+    map.commit();
+    map.commit_part(0);
+    map.commit_rect({0, 0, 4, 4});
+    map.postpone();
+    CHECK(map.state() == cache::MapState::valid);
+    CHECK(map.member_count() == 1);
+    (void)map.plan(v, objects);
+    map.notify(cache::MapEvent::light_posed);
+    map.commit();
+    CHECK(map.state() == cache::MapState::invalid);
+    CHECK(map.history().redraws == 1);
+    core::set_contract_handler(previous);
 }
 
 TEST_CASE("a map that stays does not look at boxes, which may be another light's", "[cache]") {

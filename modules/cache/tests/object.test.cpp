@@ -96,6 +96,11 @@ TEST_CASE("fixed objects rest at once, dynamic ones never, and each waking doubl
         CHECK(r.state == ObjectState::static_);
         r = cache::advance(r, ObjectEvent::moved, now);
     }
+    CHECK(r.wakes == 4);
+    CHECK(cache::advance(r, ObjectEvent::appeared, now).wakes == 0);  // another object by the same id
+    r.state = ObjectState::static_;
+    r.wakes = 255;
+    CHECK(cache::advance(r, ObjectEvent::moved, now).wakes == 255);
     CHECK(cache::ticks_of_rest({.wakes = 255}, {.rest_ticks = ~std::uint64_t{0}, .max_doublings = 255}) == ~std::uint64_t{0});
 }
 

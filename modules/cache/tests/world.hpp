@@ -49,7 +49,7 @@ private:
             case 4: tell_light(MapEvent::settings_changed); break;
             case 5: tell_light(MapEvent::redraw_requested); break;
             case 6:
-                volume_.width = volume_.width == 8 ? 6 : 8;
+                (random_.one_in(2) ? volume_.width : volume_.height) = random_.one_in(2) ? 6 : 8;
                 shape_changed(MapEvent::resolution_changed);
                 break;
             case 7:
