@@ -498,6 +498,53 @@ TEST_CASE("any numbers are refused, or give places within reach and units that a
     CHECK((placed > 200 && placed < 3800));
 }
 
+TEST_CASE("a view as long as all of the depth codes gets a longer unit, and room at both ends", "[cascades][depth]") {
+    for (double const length : {65500.0, 65527.0, 65534.8, 65535.0, 65536.5}) {
+        Scenario s;
+        s.camera.lens = math::Lens::orthographic;
+        s.camera.window = {-1e-3, 1e-3, -1e-3, 1e-3};
+        s.camera.near_m = 0.0;
+        s.camera.far_m = length;
+        s.config.direction = {0.0, 0.0, -1.0};
+        s.config.splits.scheme = cascade::SplitScheme::uniform;
+        s.config.splits.count = 1;
+        s.config.fit.depth.length_m = 1.0;
+        for (int i = 0; i < 8; ++i) {
+            s.camera.eye_m.z = 0.3 * i;
+            CascadeFrame const frame = cascade::plan(Cascades{}, s.config, s.camera).value();
+            CHECK(corners_outside(s, frame) == 0);
+        }
+    }
+}
+
+TEST_CASE("culling planes cut at one unit beside a map, and keep its border", "[cascades][cull]") {
+    for_all(cases(300), math::points(), math::directions(), integers(0, 4),
+            [](math::vec3 const& eye, math::dvec3 const& way, int side) {
+                CascadeConfig config = ordinary();
+                config.direction = way;
+                math::dvec3 const eye_m = math::to_double(eye);
+                auto const frame = cascade::plan(Cascades{}, config, camera_at(eye_m, {0.0, 0.1, -1.0}));
+                if (!frame) return;
+                Volume const& v = frame->cascades[1].volume;
+                math::dvec3 const middle_m = cascade::middle_m(frame->light, v, frame->anchor_m);
+                auto const planes = cascade::culling_planes(frame->light, v, frame->anchor_m, middle_m);
+                // Half the map away from its middle, and `beyond` units more, along one of the five ways.
+                math::dvec3 const ways[5] = {-frame->light.right, frame->light.right, -frame->light.down,
+                                             frame->light.down, frame->light.away};
+                double const unit_m = side == 4 ? v.depth_unit_m : v.texel_m;
+                double const half = 0.5 * static_cast<double>(side == 4 ? v.codes : v.size_px);
+                auto const is_outside = [&](double beyond) {
+                    math::vec3 const p = math::to_float(ways[side] * (unit_m * (half + beyond)));
+                    bool outside = false;
+                    for (math::Plane const& plane : planes) outside = outside || math::surely_outside(plane, {p, p});
+                    return outside;
+                };
+                CHECK_FALSE(is_outside(0.5));
+                CHECK(is_outside(1.5));
+                CHECK_FALSE(is_outside(-1.5));
+            });
+}
+
 TEST_CASE("culling planes keep what may cast, and little else", "[cascades][cull]") {
     int kept = 0;
     int left_out = 0;

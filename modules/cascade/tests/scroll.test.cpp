@@ -163,6 +163,12 @@ TEST_CASE("a scrolled map is the shifted one, far stays far and what is beyond t
     for_all(cases(400), scroll_cases(cascade::float_codes), [](Case const& c) { check_scroll<float>(c); });
 }
 
+TEST_CASE("long rows that overlap themselves are scrolled in place in the right order", "[scroll]") {
+    for (std::int64_t const dx : {-1, -255, -256, -257, -300, 1, 255, 256, 257, 300})
+        for (std::int64_t const dy : {0, 1, -1})
+            check_scroll<std::uint16_t>({600, {dx, dy, 3}, cascade::unorm16_codes, dx % 2 == 0, 5});
+}
+
 TEST_CASE("the shader's texel is the scrolled map's", "[scroll]") {
     auto const check = [](Case const& c, bool unorm16) {
         std::vector<std::int64_t> const codes = random_codes(c);
