@@ -509,6 +509,7 @@ TEST_CASE("a view as long as all of the depth codes gets a longer unit, and room
         s.config.splits.scheme = cascade::SplitScheme::uniform;
         s.config.splits.count = 1;
         s.config.fit.depth.length_m = 1.0;
+        s.config.fit.depth.guard_m = 0.0;
         for (int i = 0; i < 8; ++i) {
             s.camera.eye_m.z = 0.3 * i;
             CascadeFrame const frame = cascade::plan(Cascades{}, s.config, s.camera).value();
