@@ -134,6 +134,8 @@ public:
     Flattener(Scene const& scene, Pose const& pose, dvec3 const& origin) : scene_(scene), pose_(pose) {
         out_.origin_m = origin;
         out_.instance_bounds.resize(scene.instances.size());
+        out_.instance_revision.resize(scene.instances.size());
+        out_.identity = std::make_shared<char>();
     }
 
     Geometry run() {
@@ -231,7 +233,10 @@ private:
 };
 
 /// Moves the vertices of one range; those that have no finite place stay.
-void move_vertices(Geometry& geometry, Range const& range, PosedPart const& posed) noexcept {
+///
+/// returns: whether any moved.
+bool move_vertices(Geometry& geometry, Range const& range, PosedPart const& posed) noexcept {
+    bool moved = false;
     for (std::uint32_t v = 0; v < range.vertex_count; ++v) {
         PosedPart::Vertex const vertex = posed.vertex(v);
         vec3 const position = math::to_float(vertex.world_m - geometry.origin_m);
@@ -239,13 +244,16 @@ void move_vertices(Geometry& geometry, Range const& range, PosedPart const& pose
             ++geometry.held_vertices;
             continue;
         }
+        moved = moved || geometry.positions[range.first_vertex + v] != position;
         geometry.positions[range.first_vertex + v] = position;
         geometry.normals[range.first_vertex + v] = vertex.normal;
     }
+    return moved;
 }
 
-void move_range(Geometry& geometry, Range& range, PosedPart const& posed) noexcept {
-    move_vertices(geometry, range, posed);
+/// returns: whether its triangles changed.
+bool move_range(Geometry& geometry, Range& range, PosedPart const& posed) noexcept {
+    bool const moved = move_vertices(geometry, range, posed);
     math::Aabb& bounds = geometry.instance_bounds[range.instance];
     bool const turned = range.mirrored != posed.mirrors();
     range.mirrored = posed.mirrors();
@@ -254,6 +262,7 @@ void move_range(Geometry& geometry, Range& range, PosedPart const& posed) noexce
         if (turned) std::swap(geometry.indices[i + 1], geometry.indices[i + 2]);
         for (std::size_t k = i; k < i + 3; ++k) bounds = math::extended(bounds, geometry.positions[geometry.indices[k]]);
     }
+    return moved || turned;
 }
 
 }  // namespace
@@ -274,8 +283,9 @@ void update(Geometry& geometry, Scene const& scene, Pose const& pose) {
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (is_posed(scene, scene.instances[i])) geometry.instance_bounds[i] = math::Aabb{};
     for (Range& range : geometry.ranges)
-        if (is_posed(scene, scene.instances[range.instance]))
-            move_range(geometry, range, PosedPart(scene, pose, range.instance, range.primitive));
+        if (is_posed(scene, scene.instances[range.instance]) &&
+            move_range(geometry, range, PosedPart(scene, pose, range.instance, range.primitive)))
+            ++geometry.instance_revision[range.instance];
     geometry.bounds = united(geometry.instance_bounds);
 }
 

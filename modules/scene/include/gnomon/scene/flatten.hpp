@@ -9,6 +9,7 @@
 #include <gnomon/scene/scene.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -58,6 +59,8 @@ struct Geometry {
     std::vector<math::Aabb> instance_bounds;       ///< Per instance, of its triangles, in work space; empty without any.
     math::Aabb bounds;                             ///< Of all triangles, in work space.
     std::uint64_t non_finite_triangles = 0;        ///< Left out: a corner has no finite float in work space.
+    std::vector<std::uint32_t> instance_revision;  ///< Per instance: another number after an update that changed it.
+    std::shared_ptr<void const> identity;          ///< Of its triangle list: no two calls of `flatten` give the same.
     std::uint64_t held_vertices = 0;               ///< `update` left them in place: the pose has no finite one for them.
 };
 
