@@ -81,6 +81,44 @@ struct OrthoAlpha {
     }
 };
 
+/// An edge function along the rows of a tile: positive or 0 inside, the top-left rule included.
+template <class Number>
+struct OrthoEdge {
+    Number at;  ///< At the current row's first sample.
+    Number step_x, step_y;
+    double per_step;  ///< 1 / step_x: only guesses with it.
+
+    OrthoEdge(OrthoRecord const& r, int i, int j, std::int32_t x, std::int32_t y)
+        : at(static_cast<Number>(wide_edge(r, i, j, std::int64_t{x} * 256 + 128, std::int64_t{y} * 256 + 128) +
+                                 ortho_bias(r.x[j] - r.x[i], r.y[j] - r.y[i]))),
+          step_x(static_cast<Number>((r.y[i] - r.y[j]) * 256)),
+          step_y(static_cast<Number>((r.x[j] - r.x[i]) * 256)),
+          per_step(step_x == 0 ? 0.0 : 1.0 / static_cast<double>(step_x)) {}
+
+    [[nodiscard]] bool is_inside(std::int32_t k) const noexcept { return at + static_cast<Number>(k) * step_x >= 0; }
+
+    /// Cuts samples [first, last] of the row to those inside: a guess, then exact steps from it.
+    void cut(std::int32_t& first, std::int32_t& last) const noexcept {
+        if (step_x == 0) {
+            if (at < 0) last = first - 1;
+            return;
+        }
+        double const guess = std::min(std::max(-static_cast<double>(at) * per_step, -1.0), 4096.0);
+        auto k = static_cast<std::int32_t>(guess);
+        if (step_x > 0) {
+            k = std::min(std::max(k, first), last + 1);
+            while (k > first && is_inside(k - 1)) --k;
+            while (k <= last && !is_inside(k)) ++k;
+            first = k;
+        } else {
+            k = std::min(std::max(k, first - 1), last);
+            while (k < last && is_inside(k + 1)) ++k;
+            while (k >= first && !is_inside(k)) --k;
+            last = k;
+        }
+    }
+};
+
 /// The record's samples in the tile. `Number` holds its edge functions exactly: double below 2^53, or 128-bit integers.
 template <class Number>
 std::uint64_t draw_ortho_with(OrthoTile const& tile, OrthoRecord const& r, OrthoDepth const& depth,
@@ -92,27 +130,24 @@ std::uint64_t draw_ortho_with(OrthoTile const& tile, OrthoRecord const& r, Ortho
     std::int32_t const x1 = std::min<std::int32_t>(r.max_x, tile.rect.x1 - 1);
     std::int32_t const y0 = std::max<std::int32_t>(r.min_y, tile.rect.y0);
     std::int32_t const y1 = std::min<std::int32_t>(r.max_y, tile.rect.y1 - 1);
-    Number row[3], step_x[3], step_y[3], bias[3];
-    for (int i = 0; i < 3; ++i) {
-        int const j = i == 2 ? 0 : i + 1;
-        row[i] = static_cast<Number>(wide_edge(r, i, j, std::int64_t{x0} * 256 + 128, std::int64_t{y0} * 256 + 128));
-        step_x[i] = static_cast<Number>((r.y[i] - r.y[j]) * 256);
-        step_y[i] = static_cast<Number>((r.x[j] - r.x[i]) * 256);
-        bias[i] = static_cast<Number>(ortho_bias(r.x[j] - r.x[i], r.y[j] - r.y[i]));
-    }
+    OrthoEdge<Number> edges[3] = {{r, 0, 1, x0, y0}, {r, 1, 2, x0, y0}, {r, 2, 0, x0, y0}};
+    // The planes read edge functions without the rule's share.
+    auto const rule01 = static_cast<Number>(ortho_bias(r.x[1] - r.x[0], r.y[1] - r.y[0]));
+    auto const rule20 = static_cast<Number>(ortho_bias(r.x[0] - r.x[2], r.y[0] - r.y[2]));
     std::uint64_t written = 0;
     for (std::int32_t y = y0; y <= y1; ++y) {
+        std::int32_t first = 0, last = x1 - x0;
+        for (OrthoEdge<Number> const& edge : edges) edge.cut(first, last);
         float* const held = tile.code + std::ptrdiff_t{y - tile.rect.y0} * tile_size + (x0 - tile.rect.x0);
-        Number e[3] = {row[0], row[1], row[2]};
-        for (std::int32_t k = 0; k <= x1 - x0; ++k) {
-            bool const covered = e[0] + bias[0] >= 0 && e[1] + bias[1] >= 0 && e[2] + bias[2] >= 0;
-            auto const edge20 = static_cast<double>(e[2]);
-            auto const edge01 = static_cast<double>(e[0]);
-            if (covered && alpha.passes(edge20, edge01) && write_code(held[k], plane.code(edge20, edge01), depth))
-                ++written;
-            for (int i = 0; i < 3; ++i) e[i] += step_x[i];
+        Number e01 = edges[0].at - rule01 + static_cast<Number>(first) * edges[0].step_x;
+        Number e20 = edges[2].at - rule20 + static_cast<Number>(first) * edges[2].step_x;
+        for (std::int32_t k = first; k <= last; ++k) {
+            auto const edge20 = static_cast<double>(e20), edge01 = static_cast<double>(e01);
+            if (alpha.passes(edge20, edge01) && write_code(held[k], plane.code(edge20, edge01), depth)) ++written;
+            e01 += edges[0].step_x;
+            e20 += edges[2].step_x;
         }
-        for (int i = 0; i < 3; ++i) row[i] += step_y[i];
+        for (OrthoEdge<Number>& edge : edges) edge.at += edge.step_y;
     }
     return written;
 }
