@@ -102,6 +102,16 @@ inline void draw(Image& image, Caster const& c, std::uint64_t epoch, cache::Texe
 }
 inline void draw(Image& image, Caster const& c, std::uint64_t epoch) { draw(image, c, epoch, cache::rect_of(image.v)); }
 
+/// Takes back what was drawn to texels that the image showed before it was shifted.
+inline void restore_shown(Image& image, Image const& before, cache::Shift const& shift) {
+    for (std::int64_t j = 0; j < image.v.height; ++j)
+        for (std::int64_t i = 0; i < image.v.width; ++i) {
+            std::int64_t const x = i + shift.x;
+            std::int64_t const y = j + shift.y;
+            if (x >= 0 && y >= 0 && x < image.v.width && y < image.v.height) image.at(i, j) = before.at(i, j);
+        }
+}
+
 inline void copy_texels(Image& to, Image const& from, cache::TexelRect const& rect) {
     auto const inside = cache::intersection(rect, cache::rect_of(from.v));  // faulty rules may ask for more
     to.v = from.v;

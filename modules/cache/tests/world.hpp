@@ -179,7 +179,11 @@ private:
     void perform(cache::Plan const& plan, std::size_t count, std::optional<cache::TexelRect> const& only = {}) {
         if (plan.action == MapAction::redraw) c_.clear(volume_);
         if (plan.action == MapAction::scroll) c_ = scrolled(c_, volume_, plan.shift, fault_);
-        for (std::size_t k = 0; k < count; ++k) draw(c_, caster(plan.statics[k]), epoch_, only.value_or(cache::rect_of(volume_)));
+        for (std::size_t k = 0; k < count; ++k) {
+            Image const before = c_;
+            draw(c_, caster(plan.statics[k]), epoch_, only.value_or(cache::rect_of(volume_)));
+            if (plan.beside[k] != 0) restore_shown(c_, before, plan.shift);
+        }
         if (plan.compose != cache::Compose::keep) copy_texels(w_, c_, actors_.stays ? cache::rect_of(volume_) : plan.copied);
         for (std::uint32_t const i : plan.actives) draw(w_, caster(i), epoch_);
     }

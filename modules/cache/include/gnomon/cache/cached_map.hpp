@@ -125,6 +125,7 @@ private:
     std::vector<Member> members_;  ///< S' by ascending ids, 64 bytes each.
     std::vector<Member> next_;     ///< S of the plan.
     std::vector<std::uint32_t> statics_;
+    std::vector<std::uint8_t> beside_;
     std::vector<std::uint32_t> actives_;
     Plan plan_{};
     TexelRect w_will_differ_{};

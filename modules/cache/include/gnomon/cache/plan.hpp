@@ -58,6 +58,9 @@ struct Plan {
     Volume volume{};                           ///< V: what it shows afterwards.
     Shift shift{};                             ///< From V' to V; 0 but for scrolls.
     std::span<std::uint32_t const> statics{};  ///< Places in the span of objects, ascending: S of a redraw, else dS.
+    /// Of each of `statics`: 1 where C lacks it only in texels that it did not show before, so that a drawing that is cut
+    /// to those is enough.
+    std::span<std::uint8_t const> beside{};
     std::span<std::uint32_t const> actives{};  ///< A, alike.
     Compose compose = Compose::keep;
     /// What of C has to be copied, in light space and inside of V: where C changes or active objects were. A map that does

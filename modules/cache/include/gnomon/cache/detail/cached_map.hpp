@@ -42,6 +42,7 @@ Plan const& BasicCachedMap<Rules>::make_plan(Query const& query, std::span<Objec
     planned_fixed_ = Query::fixed;
     has_plan_ = true;
     statics_.clear();
+    beside_.clear();
     actives_.clear();
     next_.clear();
     if (!has_memory()) {
@@ -125,13 +126,16 @@ void BasicCachedMap<Rules>::add_static(Query const& query, std::uint32_t i, Obje
     else if (member == nullptr) ++plan_.counts.joined;
     else if (uncovered) ++plan_.counts.uncovered;
     next_.push_back(next);
-    if (next.owed) statics_.push_back(i);
+    if (!next.owed) return;
+    statics_.push_back(i);
+    beside_.push_back(next.intact && !owed ? 1 : 0);
 }
 
 template <class Rules>
 void BasicCachedMap<Rules>::decide(bool moved) noexcept {
     bool const keeps = shows(planned_);
     plan_.statics = statics_;
+    plan_.beside = beside_;
     plan_.actives = actives_;
     plan_.action = keeps ? MapAction::none : MapAction::redraw;
     if (keeps && !statics_.empty()) {
