@@ -9,6 +9,7 @@
 #include <gnomon/raster/draw.hpp>
 #include <gnomon/raster/pass.hpp>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -77,6 +78,7 @@ struct AlphaRule {
 
 [[nodiscard]] Technique shadow_map_technique() noexcept;
 [[nodiscard]] Technique ray_technique() noexcept;
+[[nodiscard]] std::array<Technique, 3> cascade_techniques() noexcept;
 [[nodiscard]] LightingTechnique deferred_technique() noexcept;
 [[nodiscard]] LightingTechnique deferred_stencil_technique() noexcept;
 [[nodiscard]] LightingTechnique tiled_deferred_technique() noexcept;

@@ -16,8 +16,11 @@ namespace gnomon::pipeline {
 
 namespace {
 
-std::array<Technique, 2> const& table() noexcept {
-    static std::array<Technique, 2> const all{shadow_map_technique(), ray_technique()};
+std::array<Technique, 5> const& table() noexcept {
+    static std::array<Technique, 5> const all = [] {
+        auto const [csm, csm_cached, csm_scroll] = cascade_techniques();
+        return std::array{shadow_map_technique(), csm, csm_cached, csm_scroll, ray_technique()};
+    }();
     return all;
 }
 

@@ -5,6 +5,7 @@
 #include <gnomon/raster/cpu_backend.hpp>
 #include <gnomon/shadow/map_view.hpp>
 
+#include "cascade/cascade_shadows.hpp"
 #include "detail.hpp"
 #include "lighting/lighting.hpp"
 #include "staged.hpp"
@@ -40,11 +41,22 @@ struct Rays {
     std::vector<std::uint32_t> answer;
 };
 
+/// Of the techniques with cascades.
+struct CascadeRuns {
+    CascadeShadows shadows;
+    std::vector<shadow::MapView> maps;
+    StagedBuffer map_views;
+    StagedBuffer depths;
+    StagedBuffer visibility;
+    StagedBuffer bias_m;
+};
+
 struct Workspace::State {
     std::unique_ptr<raster::CpuBackend> own;  ///< Outlives what follows.
     backend::Backend* device = nullptr;       ///< Whose ids follow.
     StagedSamples samples;
     ShadowMaps shadow;
+    CascadeRuns cascades;
     Rays rays;
     Lighting lighting;
 
@@ -57,6 +69,7 @@ struct Workspace::State {
     void clear() noexcept {
         samples = {};
         shadow = {};
+        cascades = {};
         rays = {};
         lighting = {};
         device = nullptr;

@@ -70,6 +70,7 @@ struct TechniqueOutput {
     std::vector<StageTime> stages;      ///< In order; their sum is the run's time.
     std::vector<Count> counts;          ///< By the names of design section 10.
     std::vector<Count> bytes;
+    std::vector<Count> redraw_reasons;  ///< Of techniques that keep maps: why each was drawn to, of a part of it too.
 };
 
 /// What a technique leaves on a backend for its next run: what was staged of a frame and its geometry, maps, buffers.

@@ -1,0 +1,66 @@
+#pragma once
+// A scene's casters as a cache sees them: batches of triangles that move as a whole, each with its state, its box and its
+// draw.
+
+#include <gnomon/batch/batches.hpp>
+#include <gnomon/cache/object.hpp>
+#include <gnomon/cache/plan.hpp>
+#include <gnomon/core/executor.hpp>
+
+#include "../detail.hpp"
+#include "../staged.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// Draws of one kept list.
+struct CasterList {
+    std::vector<raster::Draw> draws;
+    Held<backend::DrawListId> kept;
+};
+
+struct CasterConfig {
+    cache::RestConfig rest;               ///< In frames.
+    std::uint32_t batch_triangles = 128;  ///< At most; the fewer, the less is drawn to fill a strip.
+};
+
+/// Objects are batches: those of instances that cannot move come first, then the others, in two kept lists.
+class Casters {
+  public:
+    /// Follows a frame's geometry at tick `now`: makes the batches of another one, moves those of an updated one.
+    ///
+    /// returns: whether these are other objects than before.
+    bool follow(Verbs& verbs, Frame const& frame, CasterConfig const& config, std::uint64_t now, core::ExecutorRef executor);
+
+    [[nodiscard]] std::size_t size() const noexcept { return batches_.batches.size(); }
+    [[nodiscard]] cache::ObjectRecord const& record(std::size_t i) const noexcept { return records_[i]; }
+    [[nodiscard]] math::Aabb const& box(std::size_t i) const noexcept { return batches_.boxes[i]; }
+    [[nodiscard]] std::uint32_t triangles(std::size_t i) const noexcept { return batches_.batches[i].count; }
+    [[nodiscard]] std::size_t first_posed() const noexcept { return first_posed_; }
+    [[nodiscard]] backend::DrawListId resting_list() const noexcept { return resting_.kept.get(); }
+    [[nodiscard]] backend::DrawListId posed_list() const noexcept { return posed_.kept.get(); }
+
+  private:
+    void build(Frame const& frame, core::ExecutorRef executor);
+    void build_draws(Frame const& frame);
+    bool move_posed(Frame const& frame, std::uint64_t now);
+
+    std::shared_ptr<void const> identity_;  ///< Of the geometry; kept, so that no other has it.
+    scene::Geometry const* geometry_ = nullptr;
+    batch::Batches batches_;  ///< In the order of the objects.
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> range_of_triangle_;
+    std::vector<std::uint32_t> instance_of_;  ///< Of each object.
+    std::vector<std::uint32_t> revisions_;    ///< Of each instance, as they were seen last.
+    std::vector<cache::ObjectRecord> records_;
+    std::vector<raster::AlphaTest> alpha_tests_;
+    CasterConfig config_;
+    std::size_t first_posed_ = 0;
+    CasterList resting_, posed_;
+};
+
+}  // namespace gnomon::pipeline
