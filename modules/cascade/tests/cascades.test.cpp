@@ -275,7 +275,8 @@ TEST_CASE("scene bounds give a depth range that stands still and holds the scene
                 auto const frame = cascade::plan(Cascades{}, config, camera_at(math::dvec3(0.0), {1.0, 0.0, 0.0}));
                 auto const other = cascade::plan(Cascades{}, config, camera_at({40.0, 30.0, -9.0}, {0.0, 1.0, 1.0}));
                 if (!frame || !other) return;
-                for (unsigned i = 0; i < 8; ++i) {
+                CHECK_FALSE(frame->clamp_near);
+        for (unsigned i = 0; i < 8; ++i) {
                     Volume const& v = frame->cascades[0].volume;
                     CHECK(v.at.z == other->cascades[0].volume.at.z);
                     double const z =
@@ -318,6 +319,7 @@ TEST_CASE("every change that is no move has its reason, and what is not committe
     Cascades state;
     auto const next = [&] { return cascade::plan(state, config, camera).value(); };
     CHECK(next().cascades[2].update.reason == Reason::first);
+    CHECK(next().clamp_near);
     cascade::commit(state, next());
     CHECK(next().cascades[2].update.action == Action::keep);
     cascade::invalidate(state, 2);

@@ -87,6 +87,7 @@ inline core::Result<CascadeFrame, Error> plan(Cascades const& cascades, CascadeC
     frame.light = *light;
     frame.anchor_m = config.anchor_m;
     frame.count = splits->count;
+    frame.clamp_near = config.fit.depth.range == DepthRange::fixed_length;
     for (std::uint32_t k = 0; k < frame.count; ++k) {
         frame.cascades[k].depths = splits->of[k];
         if (!detail::plan_one(cascades.held[k], config, camera, frame, frame.cascades[k]))
