@@ -276,7 +276,7 @@ TEST_CASE("scene bounds give a depth range that stands still and holds the scene
                 auto const other = cascade::plan(Cascades{}, config, camera_at({40.0, 30.0, -9.0}, {0.0, 1.0, 1.0}));
                 if (!frame || !other) return;
                 CHECK_FALSE(frame->clamp_near);
-        for (unsigned i = 0; i < 8; ++i) {
+                for (unsigned i = 0; i < 8; ++i) {
                     Volume const& v = frame->cascades[0].volume;
                     CHECK(v.at.z == other->cascades[0].volume.at.z);
                     double const z =
@@ -310,6 +310,40 @@ TEST_CASE("a guard band holds the map still until the map proper leaves it", "[c
     CHECK(scrolls > 0);
     CHECK(scrolls <= static_cast<int>(texels / 17.0) + 1);
     CHECK(static_cast<double>(proper) >= texels - 18.0);
+}
+
+/// The part of its texels that each map exposes in a frame, on average, at 30 frames a second; in percent.
+std::array<double, 4> exposed_percent(double metres_per_frame, double degrees_per_frame) {
+    CascadeConfig const config = ordinary();
+    Cascades state;
+    std::array<double, 4> percent{};
+    constexpr int frames = 360;
+    for (int i = 0; i <= frames; ++i) {
+        double const angle = 0.3 + i * degrees_per_frame * 0.017453292519943295;
+        math::dvec3 const way(std::sin(angle), 0.0, -std::cos(angle));
+        CascadeFrame const frame =
+            cascade::plan(state, config, camera_at(way * (i * metres_per_frame) + math::dvec3(0.0, 1.7, 0.0), way))
+                .value();
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            auto const& exposed = frame.cascades[k].update.exposed;
+            for (int r = 0; i != 0 && r < exposed.count; ++r) {
+                auto const& rect = exposed.rects[static_cast<std::size_t>(r)];
+                percent[k] += 100.0 * rect.width * rect.height / (512.0 * 512.0) / frames;
+            }
+        }
+        cascade::commit(state, frame);
+    }
+    return percent;
+}
+
+TEST_CASE("at the paper's speeds one texel in a hundred is exposed by moving, one in twenty by turning", "[cascades]") {
+    auto const street = exposed_percent(0.5, 0.0);
+    auto const spin = exposed_percent(0.0, 7.0);
+    INFO(street[0] << " " << street[1] << " " << street[2] << " " << street[3] << " and " << spin[0] << " " << spin[1]
+                   << " " << spin[2] << " " << spin[3]);
+    CHECK((street[0] > 0.5 && street[0] < 1.5));
+    for (std::size_t k = 1; k < 4; ++k) CHECK(street[k] < 0.7 * street[k - 1]);
+    for (std::size_t k = 0; k < 4; ++k) CHECK((spin[k] > 4.0 && spin[k] < 6.0));
 }
 
 TEST_CASE("every change that is no move has its reason, and what is not committed is not forgotten",
