@@ -48,7 +48,7 @@ void record_shade(LightingRun const& on, Verbs& verbs, DeviceLists const& lists,
     std::array const buffers{state.samples.samples.get(), l.gbuffer.get(),     l.lights.get(),   lists.index.get(),
                              lists.cells.get(),           lists.ordered.get(), l.radiance.get(), l.computations.get()};
     bool const orthographic = on.frame.view.lens == math::Lens::orthographic;
-    math::vec3 const eye = orthographic ? math::to_float(on.frame.view.back) : SampleDepth(on.frame).eye();
+    math::vec3 const eye = shading_eye(on.frame);
     ShadeListsStd const c{static_cast<std::uint32_t>(n), l.format == GBufferFormat::f16 ? 1U : 0U, orthographic ? 1U : 0U, {eye.x, eye.y, eye.z}};
     verbs(on.device.run(shade_lists_kernel, {n, buffers, {}, backend::bytes_of(c)}));
     on.device.stage("");
