@@ -70,11 +70,13 @@ Json error_or_null(Report const& report, pipeline::Measures const& error) {
 }
 
 Json frame_json(Report const& report, FrameRecord const& frame) {
-    return {{"frame", frame.frame},
-            {"time_s", number(frame.time_s)},
-            {"ms", number(frame.ms)},
-            {"error", error_or_null(report, frame.error)},
-            {"counts", counts_json(frame.counts)}};
+    Json json = {{"frame", frame.frame},
+                 {"time_s", number(frame.time_s)},
+                 {"ms", number(frame.ms)},
+                 {"error", error_or_null(report, frame.error)},
+                 {"counts", counts_json(frame.counts)}};
+    if (!frame.redraw_reasons.empty()) json["redraw_reasons"] = counts_json(frame.redraw_reasons);
+    return json;
 }
 
 Json run_json(Report const& report, Run const& run) {
@@ -90,6 +92,7 @@ Json run_json(Report const& report, Run const& run) {
             {"error", error_or_null(report, run.result.error)},
             {"counts", counts_json(run.result.counts)},
             {"bytes", counts_json(run.result.bytes)}};
+    if (!run.result.redraw_reasons.empty()) json["redraw_reasons"] = counts_json(run.result.redraw_reasons);
     for (FrameRecord const& frame : run.frames) json["frames"].push_back(frame_json(report, frame));
     return json;
 }

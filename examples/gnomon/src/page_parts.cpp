@@ -71,6 +71,8 @@ std::string details_html(Run const& run) {
     html += error_html(run.result);
     for (pipeline::Count const& count : run.result.counts)
         fmt::format_to(out, "<dt>{}</dt><dd>{}</dd>\n", escaped(count.name), grouped(count.value));
+    for (pipeline::Count const& count : run.result.redraw_reasons)
+        fmt::format_to(out, "<dt>drawn to, {}</dt><dd>{}</dd>\n", escaped(count.name), grouped(count.value));
     for (pipeline::Count const& count : run.result.bytes)
         fmt::format_to(out, "<dt>bytes, {}</dt><dd>{}</dd>\n", escaped(count.name), grouped(count.value));
     return html + "</dl></details>\n";

@@ -111,6 +111,7 @@ pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::R
     for (FrameRecord const& frame : frames) {
         add(total.error, frame.error);
         add(total.counts, frame.counts);
+        add(total.redraw_reasons, frame.redraw_reasons);
         ms.push_back(frame.ms);
     }
     total.ms = {median(ms), *std::min_element(ms.begin(), ms.end()), *std::max_element(ms.begin(), ms.end())};

@@ -32,6 +32,7 @@ struct FrameRecord {
     std::vector<pipeline::StageTime> stages;
     pipeline::Measures error;
     std::vector<pipeline::Count> counts;
+    std::vector<pipeline::Count> redraw_reasons;
 };
 
 /// One run with the names that people and files call it by.

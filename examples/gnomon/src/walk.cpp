@@ -75,7 +75,7 @@ void Walk::record(int frame, double time_s, pipeline::Comparison const& compared
     for (std::size_t i = 0; i < compared.runs.size(); ++i) {
         pipeline::RunReport const& run = compared.runs[i];
         report_.runs[i].frames.push_back(
-            {static_cast<std::uint32_t>(frame), time_s, run.ms.median, run.stages, run.error, run.counts});
+            {static_cast<std::uint32_t>(frame), time_s, run.ms.median, run.stages, run.error, run.counts, run.redraw_reasons});
         if (!first) continue;
         report_.runs[i].result = run;
         report_.runs[i].result.lit = {};

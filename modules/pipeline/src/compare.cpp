@@ -23,7 +23,8 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     TechniqueRun const on{frame, request.params, workspace, device, executor};
     std::vector<std::vector<StageTime>> repeats;
     TechniqueOutput output;
-    for (int i = 0; i < std::max(config.repeats, 1); ++i) {
+    int const runs = request.technique->keeps_maps ? 1 : std::max(config.repeats, 1);
+    for (int i = 0; i < runs; ++i) {
         auto result = request.technique->run(on);
         if (!result) return std::move(result).failure();
         output = std::move(result).value();
@@ -32,6 +33,7 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     summarize_repeats(repeats, report);
     report.counts = output.counts;
     report.bytes = output.bytes;
+    report.redraw_reasons = output.redraw_reasons;
     if (config.images) report.lit = picture(frame, shading, output.visibility);
     report.measured = has_truth(frame);
     report.error.samples = frame.samples.size();

@@ -130,18 +130,21 @@ void CascadeShadows::plan(Map& map, std::uint32_t k) {
     map.plan.actives = map.all;
 }
 
-Result<core::Done> CascadeShadows::prepare(Verbs& verbs, Frame const& frame, CascadeOptions const& options, core::ExecutorRef executor) {
+void CascadeShadows::follow(Verbs& verbs, Frame const& frame, CascadeOptions const& options, core::ExecutorRef executor) {
     options_ = options;
     options_.cascades.anchor_m = frame.geometry->origin_m;
     fit_targets(verbs, options_);
+    if (!casters_.follow(verbs, frame, options_.casters, ++tick_, executor)) return;
+    for (Map& map : maps_) {
+        map.cached.notify(cache::MapEvent::content_lost);  // its members' ids are other objects' now
+        map.objects.clear();
+    }
+}
+
+Result<core::Done> CascadeShadows::prepare(Frame const& frame) {
     auto planned = cascade::plan(cascades_, options_.cascades, frame.view);
     if (!planned) return core::Failure{Error::bad_view, planned.failure().message};
     frame_ = *planned;
-    if (casters_.follow(verbs, frame, options_.casters, ++tick_, executor))
-        for (Map& map : maps_) {
-            map.cached.notify(cache::MapEvent::content_lost);  // its members' ids are other objects' now
-            map.objects.clear();
-        }
     work_ = {};
     for (std::uint32_t k = 0; k < frame_.count; ++k) {
         fit_objects(maps_[k], k);

@@ -41,10 +41,13 @@ struct CascadeWork {
 /// The maps of all cascades of one camera.
 class CascadeShadows {
   public:
-    /// Places the maps of a frame and decides what of each is kept; stages what must be.
+    /// Follows the frame's geometry and the options; stages what must be, once.
+    void follow(Verbs& verbs, Frame const& frame, CascadeOptions const& options, core::ExecutorRef executor);
+    /// Places the maps of a frame and decides what of each is kept.
     ///
-    /// returns: what is wrong with the configuration or the camera, if anything is; the backend's failures are `verbs`'s.
-    Result<core::Done> prepare(Verbs& verbs, Frame const& frame, CascadeOptions const& options, core::ExecutorRef executor);
+    /// expects: `follow` of the same frame before, and `draw` of it afterwards.
+    /// returns: what is wrong with the configuration or the camera, if anything is.
+    Result<core::Done> prepare(Frame const& frame);
     /// Brings the maps up to date, in stages "scroll", "static" and "active", or "depth_pass" alone.
     ///
     /// expects: `prepare` of the same frame before.

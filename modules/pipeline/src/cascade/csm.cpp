@@ -104,6 +104,12 @@ std::vector<StageTime> joined(std::span<StageTime const> stages) {
     return out;
 }
 
+void add_one(std::string_view name, std::vector<Count>& counts) {
+    auto const same = std::find_if(counts.begin(), counts.end(), [&](Count const& c) { return c.name == name; });
+    if (same == counts.end()) counts.push_back({name, 1});
+    else ++same->value;
+}
+
 constexpr std::array<std::string_view, cascade::max_cascades> triangles_of_map{
     "triangles_map_0", "triangles_map_1", "triangles_map_2", "triangles_map_3",
     "triangles_map_4", "triangles_map_5", "triangles_map_6", "triangles_map_7"};
@@ -118,7 +124,7 @@ void count(CascadeShadows const& shadows, CascadeOptions const& options, std::si
         all.texels_copied += work.texels_copied;
         all.texels_cleared += work.texels_cleared;
         if (options.reuse != CascadeReuse::none && work.reason != cache::Reason::none)
-            output.redraw_reasons.push_back({cache::name_of(work.reason), 1});
+            add_one(cache::name_of(work.reason), output.redraw_reasons);
     }
     auto const side = static_cast<std::uint64_t>(options.cascades.fit.size_px);
     std::uint64_t const copies = options.reuse == CascadeReuse::none ? 1 : options.reuse == CascadeReuse::still ? 2 : 3;
@@ -148,8 +154,9 @@ Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
     state.samples.fit(verbs, on.frame);
     runs.visibility.fit(verbs, n * sizeof(float));
     runs.bias_m.fit(verbs, n * sizeof(float));
+    runs.shadows.follow(verbs, on.frame, options, on.executor);
     Stopwatch watch;
-    if (auto ok = runs.shadows.prepare(verbs, on.frame, options, on.executor); !ok) return std::move(ok).failure();
+    if (auto ok = runs.shadows.prepare(on.frame); !ok) return std::move(ok).failure();
     double const plan_ms = watch.lap_ms();
     runs.shadows.draw(verbs, on.frame);
     on.device.stage("lookup");
@@ -174,11 +181,11 @@ Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
 }  // namespace
 
 std::array<Technique, 3> cascade_techniques() noexcept {
-    return {{{"csm", "cascaded shadow maps, all drawn in every frame", params_info, &run_csm<CascadeReuse::none>, nullptr},
+    return {{{"csm", "cascaded shadow maps, all drawn in every frame", params_info, &run_csm<CascadeReuse::none>, nullptr, true},
              {"csm-cached", "the same; static casters are kept while a map stays where it is", params_info,
-              &run_csm<CascadeReuse::still>, nullptr},
+              &run_csm<CascadeReuse::still>, nullptr, true, true},
              {"csm-scroll", "the same; static casters are kept and scroll with the map", params_info,
-              &run_csm<CascadeReuse::scroll>, nullptr}}};
+              &run_csm<CascadeReuse::scroll>, nullptr, true, true}}};
 }
 
 }  // namespace gnomon::pipeline

@@ -34,6 +34,7 @@ struct RunReport {
     Measures error;
     std::vector<Count> counts;
     std::vector<Count> bytes;
+    std::vector<Count> redraw_reasons;
     Image lit;      ///< The picture with this technique's shadows.
     Image overlay;  ///< Wrong samples in two colours, empty without truth; of a lighting technique its `heat_map`.
 };

@@ -114,6 +114,8 @@ struct Technique {
     Result<TechniqueOutput> (*run)(TechniqueRun const& on);
     /// Un-timed extra for the measures, straight after `run`: fills `own_hit`. Null where there is nothing to add.
     Result<core::Done> (*examine)(TechniqueRun const& on, TechniqueOutput& output);
+    bool suns_only = false;   ///< Another light than a directional one is an error.
+    bool keeps_maps = false;  ///< What one run draws the next may keep: the same frame again costs less, and says nothing.
 };
 
 /// Every technique there is.
