@@ -5,8 +5,6 @@
 #include "backend_state.hpp"
 #include "draw_list.hpp"
 
-#include <string>
-
 namespace gnomon::vulkan {
 
 backend::Result<backend::PassCounts> Backend::draw_ortho(backend::DrawListId list, backend::TargetId target,
@@ -26,8 +24,27 @@ backend::Result<backend::PassCounts> Backend::draw_ortho(backend::DrawListId lis
     return *counts;
 }
 
-backend::Result<core::Done> Backend::write_depth(backend::DepthKernel const&, backend::DepthCall const&) {
-    return core::Failure{backend::Error::missing_feature, std::string("write_depth: not on this backend yet")};
+backend::Result<core::Done> Backend::write_depth(backend::DepthKernel const& kernel, backend::DepthCall const& call) {
+    State& state = *state_;
+    Target* const goal = state.targets.find(call.to);
+    if (goal == nullptr) return backend::unknown_id("write_depth", "target", call.to.value);
+    if (auto ok = backend::check(kernel, call, goal->config()); !ok) return ok;
+    Bindings found;
+    if (auto ok = state.find("write_depth", call.buffers, call.targets, found); !ok) return ok;
+    auto const pipeline = state.compiled(kernel);
+    if (!pipeline) return to_backend(pipeline.failure());
+    auto const writing = (*pipeline)->get(goal->config().depth);
+    if (!writing) return to_backend(writing.failure());
+    if (call.rect.width <= 0 || call.rect.height <= 0) return core::Done{};
+    auto const commands = state.commands();
+    if (!commands) return to_backend(commands.failure());
+    FragmentInputs const inputs{{found.infos, call.buffers.size()}, {found.images, call.targets.size()}, call.constants};
+    if (auto ok = (*pipeline)->bind(*commands, state.sets, inputs); !ok) return to_backend(std::move(ok).failure());
+    for (std::size_t i = 0; i < call.buffers.size(); ++i) state.order.reads(found.buffers[i]->touched);
+    state.order.apply(*state.gpu, *commands);
+    for (std::size_t i = 0; i < call.targets.size(); ++i) found.targets[i]->prepare(*commands, TargetUse::sample);
+    (*pipeline)->draw(*commands, *writing, *goal, call);
+    return core::Done{};
 }
 
 }  // namespace gnomon::vulkan

@@ -122,6 +122,18 @@ Result<FragmentPipeline*> Backend::State::compiled(backend::FragmentKernel const
     return &fragment_kernels.back().pipeline;
 }
 
+Result<DepthPipeline*> Backend::State::compiled(backend::DepthKernel const& kernel) {
+    for (CompiledDepthKernel& known : depth_kernels)
+        if (known.kernel == &kernel) return &known.pipeline;
+    if (kernel.spirv.empty())
+        return core::Failure{Error::missing_feature,
+                             "kernel '" + std::string(kernel.name) + "' has no SPIR-V: it writes depths on the CPU alone"};
+    auto made = DepthPipeline::make(gpu, kernel);
+    if (!made) return std::move(made).failure();
+    depth_kernels.push_back({&kernel, *std::move(made)});
+    return &depth_kernels.back().pipeline;
+}
+
 Result<PassPipelinesRef> Backend::State::passes() {
     if (pass_pipelines != nullptr) return pass_pipelines;
     auto made = make_pass_pipelines(gpu);

@@ -14,6 +14,7 @@
 #include <gnomon/vulkan/staging.hpp>
 #include <gnomon/vulkan/timestamps.hpp>
 
+#include "depth_pipeline.hpp"
 #include "fragment_pipeline.hpp"
 
 #include <optional>
@@ -31,6 +32,11 @@ struct KeptBuffer {
 struct CompiledKernel {
     backend::Kernel const* kernel = nullptr;
     ComputeKernel compute;
+};
+
+struct CompiledDepthKernel {
+    backend::DepthKernel const* kernel = nullptr;
+    DepthPipeline pipeline;
 };
 
 struct CompiledFragmentKernel {
@@ -68,6 +74,7 @@ struct Backend::State {
     core::Failure<Error> end(core::Failure<Error> failure);
     [[nodiscard]] Result<ComputeKernel const*> compiled(backend::Kernel const& kernel);
     [[nodiscard]] Result<FragmentPipeline*> compiled(backend::FragmentKernel const& kernel);
+    [[nodiscard]] Result<DepthPipeline*> compiled(backend::DepthKernel const& kernel);
     /// Looks up what a call of `verb` names.
     ///
     /// expects: no more than a kernel may have: the call is checked.
@@ -108,6 +115,7 @@ struct Backend::State {
     backend::Slots<backend::BufferId, KeptBuffer> buffers;
     std::vector<CompiledKernel> kernels;
     std::vector<CompiledFragmentKernel> fragment_kernels;
+    std::vector<CompiledDepthKernel> depth_kernels;
     std::vector<PendingRead> reads;
     std::vector<backend::DrawListId> uploading;  ///< Kept in this frame: their staging goes when it has finished.
     std::vector<DrawList> retired_lists;

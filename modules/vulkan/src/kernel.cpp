@@ -2,6 +2,8 @@
 
 #include <gnomon/vulkan/spirv.hpp>
 
+#include "kernel_bindings.hpp"
+
 #include <algorithm>
 
 namespace gnomon::vulkan {
@@ -98,33 +100,13 @@ Result<ComputeKernel> ComputeKernel::make(GpuRef const& gpu, ComputeConfig const
 }
 
 Result<core::Done> ComputeKernel::make_layouts() {
-    VkDescriptorSetLayoutBinding bindings[max_compute_buffers + max_compute_targets] = {};
-    std::uint32_t const count = buffers_ + targets_;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        bindings[i].binding = i;
-        bindings[i].descriptorType = i < buffers_ ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-        bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-    }
-    VkDescriptorSetLayoutCreateInfo set_info{};
-    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set_info.bindingCount = count;
-    set_info.pBindings = bindings;
-    VkDescriptorSetLayout set = VK_NULL_HANDLE;
-    VkResult result = gpu_->call.CreateDescriptorSetLayout(gpu_->device, &set_info, gpu_->host, &set);
-    if (result != VK_SUCCESS) return failure_of(result, "vkCreateDescriptorSetLayout of " + name_);
-    set_layout_ = UniqueSetLayout(gpu_, set);
-    VkPushConstantRange const range{VK_SHADER_STAGE_COMPUTE_BIT, 0, constant_bytes_};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
-    info.pushConstantRangeCount = constant_bytes_ > 0 ? 1 : 0;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    result = gpu_->call.CreatePipelineLayout(gpu_->device, &info, gpu_->host, &layout);
-    if (result != VK_SUCCESS) return failure_of(result, "vkCreatePipelineLayout of " + name_);
-    pipeline_layout_ = UniquePipelineLayout(gpu_, layout);
+    auto set = detail::make_kernel_set_layout(gpu_, {buffers_, targets_}, VK_SHADER_STAGE_COMPUTE_BIT, name_);
+    if (!set) return std::move(set).failure();
+    set_layout_ = *std::move(set);
+    VkDescriptorSetLayout const sets[] = {set_layout_.get()};
+    auto layout = detail::make_pipeline_layout(gpu_, sets, {VK_SHADER_STAGE_COMPUTE_BIT, 0, constant_bytes_}, name_);
+    if (!layout) return std::move(layout).failure();
+    pipeline_layout_ = *std::move(layout);
     return core::Done{};
 }
 
@@ -163,21 +145,9 @@ Result<core::Done> ComputeKernel::check(Dispatch const& d) const {
 }
 
 void ComputeKernel::bind(VkCommandBuffer commands, VkDescriptorSet set, Dispatch const& dispatch) const {
-    VkWriteDescriptorSet writes[max_compute_buffers + max_compute_targets] = {};
-    std::uint32_t const count = buffers_ + targets_;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        VkWriteDescriptorSet& write = writes[i];
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = set;
-        write.dstBinding = i;
-        write.descriptorCount = 1;
-        write.descriptorType = i < buffers_ ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-        if (i < buffers_) write.pBufferInfo = &dispatch.buffers[i];
-        else write.pImageInfo = &dispatch.targets[i - buffers_];
-    }
     Functions const& call = gpu_->call;
-    if (count > 0) {
-        call.UpdateDescriptorSets(gpu_->device, count, writes, 0, nullptr);
+    if (buffers_ + targets_ > 0) {
+        detail::write_kernel_set(*gpu_, set, dispatch.buffers, dispatch.targets);
         call.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_.get(), 0, 1, &set, 0, nullptr);
     }
     call.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());

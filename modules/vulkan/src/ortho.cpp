@@ -49,7 +49,9 @@ class OrthoRecorder {
     }
 
     backend::PassCounts record(std::span<OrthoLayer const> layers) {
-        if (!target_.is_defined()) clear_fresh_target(layers);
+        if (!target_.is_defined())
+            detail::clear_depths(gpu_, commands_, target_,
+                                 detail::farthest(layers.empty() ? math::Depth::forward : layers[0].depth));
         while (!layers.empty()) {
             std::size_t const count = std::min<std::size_t>(layers.size(), detail::max_lights);
             record_slot(layers.first(count));
@@ -65,15 +67,6 @@ class OrthoRecorder {
     [[nodiscard]] DrawCommand const* command_of(std::size_t draw) const noexcept {
         std::uint32_t const at = list_.command_of[draw];
         return at == detail::none ? nullptr : &list_.sorted.commands[at];
-    }
-
-    /// What is not cleared by the pass would hold anything, NaN too.
-    void clear_fresh_target(std::span<OrthoLayer const> layers) {
-        target_.prepare(commands_, TargetUse::copy_to);
-        VkClearDepthStencilValue const depth{detail::farthest(layers.empty() ? math::Depth::forward : layers[0].depth), 0};
-        VkImageSubresourceRange const range{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, target_.config().layers};
-        gpu_.call.CmdClearDepthStencilImage(commands_, target_.depth_image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &depth,
-                                            1, &range);
     }
 
     /// So many layers as a slot has lights.

@@ -2,6 +2,7 @@
 #include <gnomon/vulkan/shader.hpp>
 
 #include "graphics_pipeline.hpp"
+#include "kernel_bindings.hpp"
 #include "ortho_layout.hpp"
 
 #include "shaders/ortho_frag.hpp"
@@ -13,20 +14,6 @@
 namespace gnomon::vulkan {
 
 namespace {
-
-Result<UniquePipelineLayout> make_ortho_layout(GpuRef const& gpu, VkDescriptorSetLayout set) {
-    VkPushConstantRange const range{detail::push_stages, 0, sizeof(detail::OrthoPush)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkResult const result = gpu->call.CreatePipelineLayout(gpu->device, &info, gpu->host, &layout);
-    if (result != VK_SUCCESS) return failure_of(result, "vkCreatePipelineLayout of the integer passes");
-    return UniquePipelineLayout(gpu, layout);
-}
 
 /// The greatest power of two up to half a viewport's side. Beyond 2^13 pixels nothing is gained but risk.
 std::int32_t reach_of(VkPhysicalDeviceLimits const& limits) noexcept {
@@ -45,7 +32,8 @@ Result<OrthoPipelines> OrthoPipelines::make(PassPipelinesRef const& passes, Orth
                              std::string("passes in whole units need ") +
                                  (gpu->features.shader_float64 ? "shader_int64" : "shader_float64") + ", which " +
                                  gpu->properties.name + " lacks or was not enabled with"};
-    auto layout = make_ortho_layout(gpu, passes->set_layout());
+    VkDescriptorSetLayout const sets[] = {passes->set_layout()};
+    auto layout = detail::make_pipeline_layout(gpu, sets, {detail::push_stages, 0, sizeof(detail::OrthoPush)}, "the integer passes");
     if (!layout) return std::move(layout).failure();
     OrthoPipelines made;
     made.passes_ = passes;

@@ -62,15 +62,12 @@ class PassRecorder {
 
     /// What is not cleared by the first pass would hold anything, NaN too.
     void clear_fresh_target(std::span<backend::PassLayer const> layers) {
-        target_.prepare(commands_, TargetUse::copy_to);
-        VkClearDepthStencilValue const depth{detail::farthest(layers.empty() ? math::Depth::reversed : layers[0].depth), 0};
-        VkImageSubresourceRange range{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, target_.config().layers};
-        gpu_.call.CmdClearDepthStencilImage(commands_, target_.depth_image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &depth,
-                                            1, &range);
+        detail::clear_depths(gpu_, commands_, target_,
+                             detail::farthest(layers.empty() ? math::Depth::reversed : layers[0].depth));
         if (!ids()) return;
         VkClearColorValue color{};
         color.uint32[0] = backend::no_triangle;
-        range.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
+        VkImageSubresourceRange const range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, target_.config().layers};
         gpu_.call.CmdClearColorImage(commands_, target_.triangle_image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1,
                                      &range);
     }

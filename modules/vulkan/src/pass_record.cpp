@@ -128,6 +128,13 @@ void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& 
     gpu.call.CmdBeginRendering(commands, &info);
 }
 
+void clear_depths(Gpu const& gpu, VkCommandBuffer commands, Target& target, float depth) {
+    target.prepare(commands, TargetUse::copy_to);
+    VkClearDepthStencilValue const value{depth, 0};
+    VkImageSubresourceRange const range{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, target.config().layers};
+    gpu.call.CmdClearDepthStencilImage(commands, target.depth_image(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
+}
+
 void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint32_t offset) {
     Gpu const& gpu = *list.pipelines->gpu();
     gpu.call.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, list.pipelines->layout(), 0, 1, &list.set, 1,

@@ -37,6 +37,9 @@ void begin_rendering(Gpu const& gpu, VkCommandBuffer commands, Rendering const& 
 
 [[nodiscard]] constexpr float farthest(math::Depth depth) noexcept { return depth == math::Depth::reversed ? 0.0F : 1.0F; }
 
+/// Every layer's every depth, of what holds anything until then, NaN too. Leaves the target in `TargetUse::copy_to`.
+void clear_depths(Gpu const& gpu, VkCommandBuffer commands, Target& target, float depth);
+
 /// Set, positions, indices.
 void bind_list(VkCommandBuffer commands, DrawList::State const& list, std::uint32_t offset);
 

@@ -70,6 +70,10 @@ class FrameRig {
         if (failed(b.draw_ortho(list_, targets_[0], {&whole, 1}))) return failure_;
         backend::TargetPart const part{targets_[0], 0, backend::Plane::depth, {0, 0, 16, 16}};
         if (failed(b.copy(part, targets_[1], 1, {3, 4}))) return failure_;
+        backend::TargetBinding const old{targets_[0]};
+        std::int32_t const scroll[8] = {3, -2, 0, 0x3F80'0000, 32};  // texels; by depth 0 of 1
+        backend::DepthCall const moved{.to = targets_[1], .rect = {8, 0, 32, 32}, .targets = {&old, 1}, .constants = std::as_bytes(std::span(scroll))};
+        if (failed(b.write_depth(scroll_map_kernel, moved))) return failure_;
         math::Aabb const boxes[] = {{{-1, -1, -4}, {1, 1, -3}}, {{-9, -9, -90}, {9, 9, -80}}};
         backend::PassLayer const view = layer_of(camera({64, 32}));
         if (failed(b.count_samples(boxes, targets_[0], view, buffers_[1], 0))) return failure_;

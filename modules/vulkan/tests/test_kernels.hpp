@@ -1,10 +1,12 @@
 #pragma once
 // Small kernels with both halves, for the tests of backends.
 
+#include <gnomon/backend/depth_kernel.hpp>
 #include <gnomon/backend/kernel.hpp>
 
 #include "shaders/affine_comp.hpp"
 #include "shaders/covered_comp.hpp"
+#include "shaders/scroll_map_frag.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -56,5 +58,9 @@ inline constexpr backend::Kernel covered_kernel{
     .targets = 1,
     .constant_bytes = sizeof(Covered),
 };
+
+/// cascade/formula/scroll.glsl over a map, of which there is no C++ half; its constants are a `GnScroll`.
+inline constinit backend::DepthKernel const scroll_map_kernel{
+    .name = "scroll_map", .cpu = nullptr, .spirv = scroll_map_frag, .targets = 1, .constant_bytes = 32};
 
 }  // namespace gnomon::vulkan::test
