@@ -2,6 +2,7 @@
 
 #include "cascade_shadows.hpp"
 
+#include <gnomon/cache/light_bounds.hpp>
 #include <gnomon/cascade/scroll.hpp>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ backend::OrthoLayer CascadeShadows::layer_of(Frame const& frame, std::uint32_t k
     return layer;
 }
 
-void CascadeShadows::fit_objects(Map& map, std::uint32_t k) {
+void CascadeShadows::fit_objects(Map& map, std::uint32_t k, std::span<math::vec3 const> positions) {
     cascade::Volume const& v = frame_.cascades[k].volume;
     cache::LightUnits const units{frame_.light.right, frame_.light.down, frame_.light.away, v.texel_m, v.depth_unit_m};
     bool const same_units = map.objects.size() == casters_.size() && units.right == map.units.right &&
@@ -82,8 +83,9 @@ void CascadeShadows::fit_objects(Map& map, std::uint32_t k) {
         cache::Box box = object.box;
         if (!same_units || object.revision != record.revision) {
             // Geometry lies about its origin, which is the anchor.
-            math::Aabb const& world = casters_.box(i);
-            box = cache::enclose(units, math::to_double(world.lo), math::to_double(world.hi)).value_or(cache::Box{});
+            cache::LightBounds bounds(units);  // by corners: a box of the world's box reaches into more strips
+            casters_.for_corners(i, positions, [&](math::vec3 const& p) { bounds.add(math::to_double(p)); });
+            box = bounds.box().value_or(cache::Box{});
         }
         object = cache::make_object(cache::ObjectId(i), record, box);
     }
@@ -147,7 +149,7 @@ Result<core::Done> CascadeShadows::prepare(Frame const& frame) {
     frame_ = *planned;
     work_ = {};
     for (std::uint32_t k = 0; k < frame_.count; ++k) {
-        fit_objects(maps_[k], k);
+        fit_objects(maps_[k], k, frame.geometry->positions);
         plan(maps_[k], k);
         work_[k].reason = maps_[k].plan.reason;
     }

@@ -88,7 +88,7 @@ class CascadeShadows {
     };
 
     void fit_targets(Verbs& verbs, CascadeOptions const& options);
-    void fit_objects(Map& map, std::uint32_t k);
+    void fit_objects(Map& map, std::uint32_t k, std::span<math::vec3 const> positions);
     /// What is not a move in light space makes a cached map useless.
     void tell_changes(Map& map, cascade::CascadePlan const& plan);
     void plan(Map& map, std::uint32_t k);

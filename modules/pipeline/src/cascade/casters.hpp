@@ -44,6 +44,13 @@ class Casters {
     [[nodiscard]] backend::DrawListId resting_list() const noexcept { return resting_.kept.get(); }
     [[nodiscard]] backend::DrawListId posed_list() const noexcept { return posed_.kept.get(); }
 
+    /// f(position) for the corners of object `i`'s triangles.
+    template <class F>
+    void for_corners(std::size_t i, std::span<math::vec3 const> positions, F const& f) const {
+        batch::Batch const& batch = batches_.batches[i];
+        for (std::size_t k = std::size_t{batch.first} * 3; k < (std::size_t{batch.first} + batch.count) * 3; ++k) f(positions[indices_[k]]);
+    }
+
   private:
     void build(Frame const& frame, core::ExecutorRef executor);
     void build_draws(Frame const& frame);
