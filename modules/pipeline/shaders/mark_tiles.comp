@@ -17,6 +17,8 @@ layout(push_constant) uniform Constants {
     uint columns, rows;
     uint words;
     uint orthographic;
+    uint bands;
+    uint band_rows;
 } c;
 
 // Ways to leave tiles out: what is left of the face, right of it, above, below.
@@ -57,18 +59,21 @@ void mark(uint light, uint tile) { atomicOr(marks[tile * c.words + (light >> 5)]
 void main() {
     uint item = GNOMON_ITEM;
     if (item >= c.count) return;
-    uint light = item / gn_hull_faces();
-    uint f = item % gn_hull_faces();
+    uint triangle = item / c.bands;
+    uint light = triangle / gn_hull_faces();
+    uint f = triangle % gn_hull_faces();
+    uint band_top = min(item % c.bands * c.band_rows, c.rows);
+    uint band_bottom = min(band_top + c.band_rows, c.rows);
     GnHull hull = hulls[light];
     if (hull.kind == 2u && f == 0u)
-        for (uint tile = 0u; tile < c.columns * c.rows; ++tile) mark(light, tile);
+        for (uint tile = band_top * c.columns; tile < band_bottom * c.columns; ++tile) mark(light, tile);
     if (hull.kind >= 2u) return;
     GnHullFace face = gn_hull_face(hull, f, c.orthographic == 0u);
     if (face.kind == 0u) return;
     uint left = count_past(face, to_left, c.columns);
     uint right = count_past(face, to_right, c.columns);
-    uint top = count_past(face, above, c.rows);
-    uint bottom = count_past(face, below, c.rows);
+    uint top = max(count_past(face, above, c.rows), band_top);
+    uint bottom = min(count_past(face, below, c.rows), band_bottom);
     for (uint block_j = top; block_j < bottom; block_j += block)
         for (uint block_i = left; block_i < right; block_i += block) {
             uint j_end = min(block_j + block, bottom);

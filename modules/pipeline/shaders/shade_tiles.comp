@@ -15,7 +15,7 @@ layout(std430, set = 0, binding = 4) readonly buffer Balls { float balls[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Borders { GnTileBorder borders[]; };
 layout(std430, set = 0, binding = 6) buffer Radiance { float radiance[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Computations { uint computations[]; };
-layout(std430, set = 0, binding = 8) writeonly buffer LightsOf { uint lights_of[]; };
+layout(std430, set = 0, binding = 8) buffer LightsOf { uint lights_of[]; };
 layout(std430, set = 0, binding = 9) readonly buffer Marks { uint marks[]; };
 
 layout(push_constant) uniform Constants {
@@ -29,6 +29,7 @@ layout(push_constant) uniform Constants {
     float from_x, from_y, from_z;
     float forward_x, forward_y, forward_z;
     uint marked;
+    uint first, end;
 } c;
 
 const uint lanes = 64u;
@@ -111,15 +112,16 @@ void main() {
     find_depths(tile, lane);
     bool any = nearest[0] <= farthest[0];
     GnTilePlanes planes = planes_of(tile, nearest[0], farthest[0]);
-    uint before = 0u;
-    uint next = any ? 0u : c.lights;
+    // Read before any lane writes it: barriers follow.
+    uint before = c.first != 0u ? lights_of[tile] : 0u;
+    uint next = any ? c.first : c.end;
     do {
         uint listed = 0u;
-        for (; next < c.lights && listed + lanes <= list_size; next += lanes) {
+        for (; next < c.end && listed + lanes <= list_size; next += lanes) {
             barrier();
             if (lane < 2u) kept_bits[lane] = 0u;
             barrier();
-            bool kept = keeps(tile, planes, next + lane);
+            bool kept = next + lane < c.end && keeps(tile, planes, next + lane);
             if (kept) atomicOr(kept_bits[lane >> 5], 1u << (lane & 31u));
             barrier();
             uint low = kept_bits[0];
@@ -132,6 +134,6 @@ void main() {
         barrier();
         add_lights(tile, lane, before, listed);
         before += listed;
-    } while (next < c.lights);
+    } while (next < c.end);
     if (lane == 0u) lights_of[tile] = before;
 }

@@ -30,21 +30,25 @@ struct Marking {
         std::uint32_t& word = marks[tile * c.words + light / 32];
         std::atomic_ref<std::uint32_t>(word).fetch_or(1U << (light % 32), std::memory_order_relaxed);
     }
-    void draw(std::size_t light, std::uint32_t face) const {
+    void draw(std::size_t light, std::uint32_t face, std::uint32_t band) const {
         lights::Hull const& hull = hulls[light];
+        std::uint32_t const top = std::min(band * c.band_rows, c.rows), bottom = std::min(top + c.band_rows, c.rows);
         if (hull.kind == static_cast<std::uint32_t>(lights::HullKind::nowhere)) return;
         if (hull.kind == static_cast<std::uint32_t>(lights::HullKind::everywhere)) {
-            for (std::size_t tile = 0; face == 0 && tile < std::size_t{c.columns} * c.rows; ++tile) mark(light, tile);
+            for (std::size_t tile = std::size_t{c.columns} * top; face == 0 && tile < std::size_t{c.columns} * bottom; ++tile) mark(light, tile);
             return;
         }
-        lights::for_each_tile(hull, face, tiles, [&](std::uint32_t i, std::uint32_t j) { mark(light, std::size_t{j} * c.columns + i); });
+        lights::HullTiles const within{tiles.x, tiles.y.subspan(top, bottom - top + 1), tiles.perspective};
+        lights::for_each_tile(hull, face, within, [&](std::uint32_t i, std::uint32_t j) { mark(light, std::size_t{top + j} * c.columns + i); });
     }
 };
 
 void mark_tiles(backend::KernelData const& data, std::size_t begin, std::size_t end) {
     Marking const work(data);
-    for (std::size_t item = begin; item < std::min<std::size_t>(end, work.c.count); ++item)
-        work.draw(item / lights::hull_faces, static_cast<std::uint32_t>(item % lights::hull_faces));
+    for (std::size_t item = begin; item < std::min<std::size_t>(end, work.c.count); ++item) {
+        std::size_t const triangle = item / work.c.bands;
+        work.draw(triangle / lights::hull_faces, static_cast<std::uint32_t>(triangle % lights::hull_faces), static_cast<std::uint32_t>(item % work.c.bands));
+    }
 }
 
 }  // namespace

@@ -92,11 +92,11 @@ struct BallTest {
 struct TileList {
     std::uint32_t light[tile_list_size];
     std::uint32_t count = 0;
-    std::uint32_t next = 0;  ///< The first light that was not tested.
+    std::uint32_t next;  ///< The first light that was not tested.
 
     template <std::size_t N>
     [[gnu::always_inline]] void fill(TileShading const& s, BallTest const& test) noexcept {
-        for (count = 0; next < s.c.lights && count + backend::kernel_local_size <= tile_list_size; next += N)
+        for (count = 0; next < s.c.end && count + backend::kernel_local_size <= tile_list_size; next += N)
             for (std::uint32_t kept = test.keep<N>(s, next); kept != 0; kept &= kept - 1)
                 light[count++] = next + static_cast<std::uint32_t>(__builtin_ctz(kept));
     }
@@ -131,10 +131,11 @@ template <std::size_t N>
     bool const any = depths.near_m <= depths.far_m;
     BallTest const test{tile, depths, s.planes_of(tile, depths)};
     TileList list;
-    std::uint32_t before = 0;
+    list.next = s.c.first;
+    std::uint32_t before = s.c.first != 0 ? s.lights_of[tile] : 0;
     do {
         if (any) list.fill<N>(s, test);
-        else list.next = s.c.lights;
+        else list.next = s.c.end;
         std::uint32_t sample[N];
         std::size_t count = 0;
         s.each_sample(tile, [&](std::uint32_t i) {
@@ -143,7 +144,7 @@ template <std::size_t N>
         });
         if (count != 0) add_lights<N>(s, list, before, sample, count);
         before += list.count;
-    } while (list.next < s.c.lights);
+    } while (list.next < s.c.end);
     s.lights_of[tile] = before;
 }
 

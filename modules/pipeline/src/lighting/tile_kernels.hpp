@@ -17,6 +17,7 @@ namespace gnomon::pipeline {
 //           5 cull::TileBorder borders[columns + 1 + rows + 1]: of columns, then of rows
 //           6 out float radiance[n][3]   7 out uint computations[n]   8 out uint lights_of[tiles]; 0 where a tile has no sample
 //           9 uint marks[tiles][lights / 32], read if `marked`: the lights of a tile, a bit each
+// Lights [first, end) of all, after those before, whose sums and counts 6, 7 and 8 then hold.
 // The group finds the nearest and the farthest sample of its tile, tests every light, 64 at a time, against the six planes
 // between them, or against the two depths alone if it is marked, and lists those that may reach, in ascending order, in memory that the group shares. Where that is full its samples are shaded and
 // the list begins anew: it has no limit. The sum begins with what no light adds.
@@ -32,8 +33,20 @@ struct ShadeTilesStd {
     float from[3];                ///< Depths are along `forward`, from here on.
     float forward[3];
     std::uint32_t marked;
+    std::uint32_t first, end;  ///< Multiples of 8.
 };
-static_assert(sizeof(ShadeTilesStd) == 72);
+static_assert(sizeof(ShadeTilesStd) == 80);
+
+/// What loops of one invocation may add up to: lavapipe ends them after 65,535 iterations and says nothing, and a device that
+/// takes too long over one is reset. Work is split by it: on the CPU too, for the same calls on every backend.
+inline constexpr std::uint32_t most_iterations = 40960;
+
+/// Lights of one run, so that an invocation, a 64th of a tile's pixels under each of them, stays below that; a multiple of 8.
+[[nodiscard]] constexpr std::uint32_t lights_of_run(std::uint32_t tile_px) noexcept {
+    std::uint32_t const pixels = (tile_px * tile_px + backend::kernel_local_size - 1) / backend::kernel_local_size;
+    return most_iterations / pixels / 8 * 8;
+}
+static_assert(lights_of_run(4) == 40960 && lights_of_run(32) == 2560 && lights_of_run(256) == 40);
 
 /// Lights that a group lists before it shades.
 inline constexpr std::uint32_t tile_list_size = 1024;
@@ -43,13 +56,15 @@ extern backend::Kernel const shade_tiles_kernel;
 // --- mark_tiles: the triangles of lights' hulls, rasterized into an image of one pixel a tile -------------------------
 //
 // buffers   0 lights::Hull[lights]   1 float borders[columns + 1 + rows + 1]   2 marks: bits are set, in any order
-// An item is a triangle: 20 of a light. Of a light that is everywhere the first marks all tiles.
+// An item is a triangle, 20 of a light, in a band of rows. Of a light that is everywhere the first marks all tiles.
 
 struct MarkTilesStd {
     std::uint32_t count;  ///< Items.
     std::uint32_t columns, rows;
     std::uint32_t words;  ///< Of a tile's marks.
     std::uint32_t orthographic;
+    std::uint32_t bands;
+    std::uint32_t band_rows;
 };
 
 extern backend::Kernel const mark_tiles_kernel;

@@ -11,6 +11,7 @@
 #include <gnomon/lights/bounding_ball.hpp>
 #include <gnomon/lights/hull.hpp>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -59,6 +60,8 @@ ShadeTilesStd constants_of(LightingRun const& on, cluster::GridView const& grid,
             {eye.x, eye.y, eye.z},
             {from.x, from.y, from.z},
             {forward.x, forward.y, forward.z},
+            0,
+            0,
             0};
 }
 
@@ -85,8 +88,11 @@ void record_marks(LightingRun const& on, Verbs& verbs, cluster::GridView const& 
     ClearWordsStd const clear{static_cast<std::uint32_t>(grid.clusters() * words), 0};
     verbs(on.device.run(clear_words_kernel, {clear.count, cleared, {}, backend::bytes_of(clear)}));
     std::array const buffers{l.hulls.get(), l.window.get(), l.marks.get()};
-    MarkTilesStd const c{static_cast<std::uint32_t>(hulls.size() * lights::hull_faces), grid.columns(), grid.rows(), words, grid.perspective ? 0U : 1U};
-    verbs(on.device.run(mark_tiles_kernel, {hulls.size() * lights::hull_faces, buffers, {}, backend::bytes_of(c)}));
+    std::uint32_t const band_rows = std::max(1U, most_iterations / grid.columns());
+    std::uint32_t const bands = (grid.rows() + band_rows - 1) / band_rows;
+    std::size_t const items = hulls.size() * lights::hull_faces * bands;
+    MarkTilesStd const c{static_cast<std::uint32_t>(items), grid.columns(), grid.rows(), words, grid.perspective ? 0U : 1U, bands, band_rows};
+    verbs(on.device.run(mark_tiles_kernel, {items, buffers, {}, backend::bytes_of(c)}));
 }
 
 Result<LightingOutput> run_tiles(LightingRun const& on, bool marked) {
@@ -116,7 +122,12 @@ Result<LightingOutput> run_tiles(LightingRun const& on, bool marked) {
                              l.borders.get(),             l.radiance.get(), l.computations.get(), l.lights_of.get(), l.marks.get()};
     ShadeTilesStd c = constants_of(on, view, l);
     c.marked = marked ? 1U : 0U;
-    verbs(on.device.run(shade_tiles_kernel, {view.clusters() * backend::kernel_local_size, buffers, {}, backend::bytes_of(c)}));
+    std::uint32_t const step = lights_of_run(c.tile);
+    do {
+        c.end = std::min(c.lights, c.first + step);
+        verbs(on.device.run(shade_tiles_kernel, {view.clusters() * backend::kernel_local_size, buffers, {}, backend::bytes_of(c)}));
+        c.first = c.end;
+    } while (c.first < c.lights);
     on.device.stage("");
     verbs(on.device.read(l.lights_of.get(), 0, std::as_writable_bytes(std::span(lights_of))));
     auto output = read_image(on, verbs, std::move(stages));
