@@ -138,7 +138,8 @@ void CascadeShadows::follow(Verbs& verbs, Frame const& frame, CascadeOptions con
     fit_targets(verbs, options_);
     if (!casters_.follow(verbs, frame, options_.casters, ++tick_, executor)) return;
     for (Map& map : maps_) {
-        map.cached.notify(cache::MapEvent::content_lost);  // its members' ids are other objects' now
+        // Its members' ids are other objects' now.
+        if (cache::holds_image(map.cached.state())) map.cached.notify(cache::MapEvent::content_lost);
         map.objects.clear();
     }
 }
