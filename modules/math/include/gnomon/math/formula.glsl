@@ -30,6 +30,7 @@
     _Pragma("GCC diagnostic pop")
 #define GN_FN template <class S> [[nodiscard, gnu::always_inline]] constexpr
 #define GN_PLAIN_FN [[nodiscard]] constexpr
+#define GN_PLAIN_VEC_FN [[nodiscard]] inline  // some of GLM's macros make constructors of vectors not constexpr
 #define GN_STRUCT(name) template <class S> struct name
 #define GN_TYPE(name) name<S>
 #define GN_FLOAT Float<S>
@@ -56,6 +57,7 @@
 #define GN_END
 #define GN_FN
 #define GN_PLAIN_FN
+#define GN_PLAIN_VEC_FN
 #define GN_STRUCT(name) struct name
 #define GN_TYPE(name) name
 #define GN_FLOAT float

@@ -39,7 +39,7 @@ struct GnTilePlanes {
 };
 
 /// Coefficients that are exact: their magnitude is theirs, and a little more that no rounding takes away.
-GN_PLAIN_FN GnPlane gn_exact_plane(vec3 normal, float offset, float norm) {
+GN_PLAIN_VEC_FN GnPlane gn_exact_plane(vec3 normal, float offset, float norm) {
     GN_PRECISE float x = abs(normal.x) * 1.00000023841857910156f + 1.5777218e-30f;
     GN_PRECISE float y = abs(normal.y) * 1.00000023841857910156f + 1.5777218e-30f;
     GN_PRECISE float z = abs(normal.z) * 1.00000023841857910156f + 1.5777218e-30f;
@@ -52,7 +52,7 @@ GN_PLAIN_FN GnPlane gn_exact_plane(vec3 normal, float offset, float norm) {
 }
 
 /// With perspective side planes go through the eye: x - at depth >= 0. Without, they stand: x - at >= 0.
-GN_PLAIN_FN GnTilePlanes gn_tile_planes(GN_IN(GnTile) tile, bool perspective) {
+GN_PLAIN_VEC_FN GnTilePlanes gn_tile_planes(GN_IN(GnTile) tile, bool perspective) {
     GnTileBorder l = tile.left;
     GnTileBorder r = tile.right;
     GnTileBorder t = tile.top;

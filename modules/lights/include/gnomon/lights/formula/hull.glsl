@@ -52,7 +52,7 @@ GN_PLAIN_FN float gn_ring_sin(uint k) {
 }
 
 /// Corner i, 0 to 11. Icosahedron: top, five of the upper ring, five of the lower, bottom. Pyramid: apex, ten, base.
-GN_PLAIN_FN vec3 gn_hull_corner(GN_IN(GnHull) h, uint i) {
+GN_PLAIN_VEC_FN vec3 gn_hull_corner(GN_IN(GnHull) h, uint i) {
     bool cone = h.kind == 1u;
     bool end = i == 0u || i == 11u;
     uint ring = i < 6u ? 2u * i - 2u : 2u * i - 11u;
@@ -92,7 +92,7 @@ struct GnHullEdge {
     vec3 size;
 };
 
-GN_PLAIN_FN GnHullEdge gn_hull_edge(vec3 a, vec3 b) {
+GN_PLAIN_VEC_FN GnHullEdge gn_hull_edge(vec3 a, vec3 b) {
     GN_PRECISE float x = b.x - a.x;
     GN_PRECISE float y = b.y - a.y;
     GN_PRECISE float z = b.z - a.z;
@@ -125,7 +125,7 @@ struct GnHullFace {
     uint kind;
 };
 
-GN_PLAIN_FN GnHullFace gn_hull_face(GN_IN(GnHull) hull, uint f, bool perspective) {
+GN_PLAIN_VEC_FN GnHullFace gn_hull_face(GN_IN(GnHull) hull, uint f, bool perspective) {
     uint corners = gn_hull_face_corners(hull.kind, f);
     GnHullFace face;
     face.a = gn_hull_corner(hull, corners & 15u);
