@@ -38,7 +38,7 @@ struct Dispatch {
     }
     Outcome<gnomon::core::Done> operator()(BenchOptions options) const {
         options.run.command = command;
-        return bench_lights(options);
+        return options.which == Bench::lights ? bench_lights(options) : bench_cascades(options);
     }
     Outcome<gnomon::core::Done> operator()(ScenesOptions const& options) const { return list_or_write_scenes(options); }
     Outcome<gnomon::core::Done> operator()(InfoOptions const& options) const {

@@ -243,11 +243,21 @@ Outcome<Command> run_command_of(RawOptions const& raw, Verb verb) {
 }
 
 Outcome<Command> bench_options(RawOptions const& raw) {
-    if (raw.bench != "lights")
-        return usage_error(fmt::format("gnomon bench {}: there is no such benchmark; there is lights", raw.bench));
+    if (raw.bench != "lights" && raw.bench != "cascades")
+        return usage_error(fmt::format("gnomon bench {}: there is no such benchmark; there are lights and cascades", raw.bench));
+    if (raw.bench == "cascades" && raw.most_lights)
+        return usage_error("--most-lights: only bench lights has so many; leave it out");
+    if (raw.bench == "lights" && !raw.motions.empty())
+        return usage_error(fmt::format("--motions {}: only bench cascades has motions; leave it out", raw.motions.front()));
     auto run = run_options(raw, Verb::bench);
     if (!run) return std::move(run).failure();
-    BenchOptions bench{*std::move(run)};
+    BenchOptions bench;
+    bench.run = *std::move(run);
+    if (raw.bench == "cascades") {
+        bench.which = Bench::cascades;
+        bench.motions = raw.motions;
+        bench.frames = 30;
+    }
     if (!raw.size) bench.run.view.size_px = math::ivec2(960, 540);
     std::optional<core::Failure<Exit>> error;
     take<std::int64_t>(raw.frames, bench.frames, error,

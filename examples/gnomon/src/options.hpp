@@ -81,11 +81,18 @@ struct RunOptions {
     std::string command;              ///< As typed.
 };
 
-/// `bench lights`.
+enum class Bench {
+    lights,
+    cascades,
+};
+
+/// `bench`.
 struct BenchOptions {
+    Bench which = Bench::lights;
     RunOptions run;             ///< Size, backends, threads, repeats and outputs; the experiments choose the rest.
-    int frames = 12;            ///< Of each path, spread over it.
+    int frames = 12;            ///< Of each path: spread over it; of `cascades` one after the other, from the first.
     std::uint32_t most_lights = 1'048'576;
+    std::vector<std::string> motions;  ///< Of `cascades`; none named: all of them.
 };
 
 struct ScenesOptions {

@@ -145,10 +145,14 @@ Outcome<RawCommand> parse_raw(int argc, char const* const* argv) {
         add_view_and_light(*verb, raw.options);
         add_run(*verb, raw.options);
     }
-    bench->add_option("which", raw.options.bench, "lights: tiled and clustered shading, few lights to a million")->required()->type_name("");
+    bench->add_option("which", raw.options.bench, "lights: tiled and clustered shading, few lights to a million; cascades: maps that are kept and scrolled")->required()->type_name("");
     bench->add_option("--size", raw.options.size, "picture size in pixels; 960x540 (the papers': 1920x1080)")->type_name("WxH");
-    bench->add_option("--frames", raw.options.frames, "of each path, spread over it; 12")->type_name("N");
+    bench->add_option("--frames", raw.options.frames, "of each path; lights: spread over it, 12; cascades: from the first, 30")->type_name("N");
     bench->add_option("--most-lights", raw.options.most_lights, "no experiment has more; 1048576")->type_name("N");
+    bench->add_option("--motions", raw.options.motions, "of cascades, some only: still, street, spin, ...; all of them")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B");
     add_running(*bench, raw.options);
     add_scene(*scenes, raw.options, false);
     scenes->add_option("--write", raw.options.write, "write the scene as glTF 2.0")->type_name("FILE.glb");

@@ -17,7 +17,7 @@ struct RawOptions {
     std::optional<std::string> path, frames, time, clip, file_scene;
     bool no_truth = false, trees = false;
     std::optional<std::string> sun, point, light;
-    std::vector<std::string> techniques, params;
+    std::vector<std::string> techniques, params, motions;
     std::optional<std::string> size, device, threads, repeats, json, out, write, most_lights;
     std::vector<std::string> backends;
     bool devices = false;

@@ -11,6 +11,8 @@ namespace gnomon::command {
 [[nodiscard]] Outcome<core::Done> fly(RunOptions const& options);
 /// `bench lights`.
 [[nodiscard]] Outcome<core::Done> bench_lights(BenchOptions const& options);
+/// `bench cascades`.
+[[nodiscard]] Outcome<core::Done> bench_cascades(BenchOptions const& options);
 [[nodiscard]] Outcome<core::Done> list_or_write_scenes(ScenesOptions const& options);
 [[nodiscard]] Outcome<core::Done> show_info();
 /// `info --devices`.

@@ -26,6 +26,8 @@ Outcome<core::Done> Walk::prepare() {
     return core::Done{};
 }
 
+void Walk::stand() { std::fill(journey_.views.begin(), journey_.views.end(), journey_.views.front()); }
+
 void Walk::restart(std::string light) {
     report_ = start_report(options_, stage_);
     report_.many_lights = lights_many(plan_);

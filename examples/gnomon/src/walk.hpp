@@ -28,6 +28,8 @@ class Walk {
     /// Runs all techniques on a frame of the path and notes their numbers; frames in ascending order, any of them.
     [[nodiscard]] Outcome<pipeline::Comparison> step(int frame, bool images);
 
+    /// From here on the camera of the first frame serves every frame, while time passes.
+    void stand();
     /// Forgets the numbers, so that the next step begins a report of its own under `light`.
     void restart(std::string light);
 

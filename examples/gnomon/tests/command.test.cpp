@@ -119,7 +119,33 @@ TEST_CASE("bench lights puts our figures beside the papers'", "[command]") {
     CHECK(has(read_text(folder / "out/index.html"), "Where tiled and clustered cross"));
     Ended const unknown = gnomon_in(folder.path(), {"bench", "shadows"});
     CHECK(unknown.exit_code == 2);
-    CHECK(has(unknown.err, "gnomon bench shadows: there is no such benchmark; there is lights"));
+    CHECK(has(unknown.err, "gnomon bench shadows: there is no such benchmark; there are lights and cascades"));
+}
+
+TEST_CASE("bench cascades shows how little maps that scroll have to draw", "[command]") {
+    TestFolder const folder;
+    Ended const ended = gnomon_in(folder.path(), {"bench", "cascades", "--size", "64x36", "--frames", "3", "--motions", "street-10,sun", "--out", "out"});
+    CAPTURE(ended.err, ended.out);
+    REQUIRE(ended.exit_code == 0);
+    json const results = results_in(folder / "out");
+    auto const errors = schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results);
+    CAPTURE(errors.empty() ? std::string() : errors.front());
+    CHECK(errors.empty());
+    REQUIRE(results["runs"].size() == 2 * 3);
+    std::uint64_t scrolls = 0;
+    for (std::size_t i = 0; i < 2 * 3; i += 3) {
+        CHECK(results["runs"][i + 2]["counts"]["triangles_drawn"] <= results["runs"][i]["counts"]["triangles_drawn"]);
+        scrolls += results["runs"][i + 2]["redraw_reasons"].value("volume_moved", 0U);
+    }
+    CHECK(scrolls >= 6);
+    CHECK(results["runs"][5]["redraw_reasons"].value("light_posed", 0U) == 8);  // a sun that moves leaves nothing to keep
+    CHECK(has(read_text(folder / "out/index.html"), "10 % of the props move"));
+    Ended const other = gnomon_in(folder.path(), {"bench", "cascades", "--motions", "walk"});
+    CHECK(other.exit_code == 2);
+    CHECK(has(other.err, "--motions walk: there is no such motion; there are still, "));
+    Ended const lit = gnomon_in(folder.path(), {"bench", "cascades", "--most-lights", "5"});
+    CHECK(lit.exit_code == 2);
+    CHECK(has(lit.err, "--most-lights"));
 }
 
 TEST_CASE("the page loads nothing from elsewhere", "[command]") {

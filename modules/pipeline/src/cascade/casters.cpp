@@ -39,18 +39,21 @@ void Casters::build(Frame const& frame, core::ExecutorRef executor) {
     batch::build_batches({g.positions, g.indices, range_of_triangle_}, {.max_triangles = config_.batch_triangles}, workspace, batches_, executor);
     // Batches are ordered by group, which is a range's place in `order`.
     instance_of_.clear();
+    vertices_of_.clear();
     first_posed_ = size();
     for (std::size_t i = 0; i < size(); ++i) {
         scene::Range const& range = g.ranges[order[batches_.batches[i].group]];
         instance_of_.push_back(range.instance);
+        vertices_of_.push_back({range.first_vertex, range.vertex_count});
         batches_.batches[i].group = order[batches_.batches[i].group];
         bool const posed = scene::is_posed(*frame.scene, frame.scene->instances[range.instance]);
         if (posed && first_posed_ == size()) first_posed_ = i;
     }
     indices_.clear();
     indices_.reserve(batches_.triangles.size() * 3);
-    for (std::uint32_t const t : batches_.triangles)
-        for (std::size_t k = 0; k < 3; ++k) indices_.push_back(g.indices[std::size_t{t} * 3 + k]);
+    for (std::size_t i = 0; i < size(); ++i)
+        for (std::uint32_t const t : triangles_of(i))
+            for (std::size_t k = 0; k < 3; ++k) indices_.push_back(g.indices[std::size_t{t} * 3 + k] - vertices_of_[i].first);
     revisions_ = g.instance_revision;
     records_.assign(size(), {});
 }
@@ -66,13 +69,15 @@ void Casters::build_draws(Frame const& frame) {
         scene::Material const& material = frame.scene->materials[g.ranges[batch.group].material];
         AlphaRule const rule = alpha_rule(*frame.scene, material);
         raster::Draw draw;
-        draw.positions = std::span<math::vec3 const>(g.positions);
-        draw.indices = std::span<std::uint32_t const>(indices_).subspan(std::size_t{batch.first} * 3, rule.nothing ? 0 : std::size_t{batch.count} * 3);
-        if (rule.nothing) draw.positions = std::span<math::vec3 const>();
+        Vertices const& own = vertices_of_[i];
+        if (!rule.nothing) {
+            draw.positions = std::span<math::vec3 const>(g.positions).subspan(own.first, own.count);
+            draw.indices = std::span<std::uint32_t const>(indices_).subspan(std::size_t{batch.first} * 3, std::size_t{batch.count} * 3);
+        }
         if (rule.tested) {
             scene::Texture const& texture = *base_texture(*frame.scene, material);
             scene::Image const& image = *base_image(*frame.scene, material);
-            alpha_tests_.push_back({std::span<math::vec2 const>(g.uv), {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v},
+            alpha_tests_.push_back({std::span<math::vec2 const>(g.uv).subspan(own.first, own.count), {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v},
                                     static_cast<double>(material.base_color.w), rule.cutoff});
             draw.alpha_test = &alpha_tests_.back();
         }
@@ -86,13 +91,14 @@ bool Casters::move_posed(Frame const& frame, std::uint64_t now) {
     for (std::size_t i = first_posed_; i < size(); ++i) {
         if (revisions_[instance_of_[i]] == g.instance_revision[instance_of_[i]]) continue;
         moved = true;
-        batch::Batch const& batch = batches_.batches[i];
         math::Aabb box;
-        for (std::size_t k = std::size_t{batch.first} * 3; k < (std::size_t{batch.first} + batch.count) * 3; ++k) {
-            std::uint32_t const from = g.indices[std::size_t{batches_.triangles[k / 3]} * 3 + k % 3];
-            indices_[k] = from;  // an instance that is mirrored now has its windings turned
-            box = math::extended(box, g.positions[from]);
-        }
+        std::size_t at = std::size_t{batches_.batches[i].first} * 3;
+        for (std::uint32_t const t : triangles_of(i))
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::uint32_t const from = g.indices[std::size_t{t} * 3 + k];
+                indices_[at++] = from - vertices_of_[i].first;  // an instance that is mirrored now has its windings turned
+                box = math::extended(box, g.positions[from]);
+            }
         batches_.boxes[i] = box;
         records_[i] = cache::advance(records_[i], cache::ObjectEvent::moved, now);
     }

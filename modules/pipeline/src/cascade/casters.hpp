@@ -48,10 +48,19 @@ class Casters {
     template <class F>
     void for_corners(std::size_t i, std::span<math::vec3 const> positions, F const& f) const {
         batch::Batch const& batch = batches_.batches[i];
-        for (std::size_t k = std::size_t{batch.first} * 3; k < (std::size_t{batch.first} + batch.count) * 3; ++k) f(positions[indices_[k]]);
+        for (std::size_t k = std::size_t{batch.first} * 3; k < (std::size_t{batch.first} + batch.count) * 3; ++k) f(positions[vertices_of_[i].first + indices_[k]]);
     }
 
   private:
+    /// The geometry's vertices that an object's triangles may use: those of its primitive.
+    struct Vertices {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    [[nodiscard]] std::span<std::uint32_t const> triangles_of(std::size_t i) const noexcept {
+        return std::span(batches_.triangles).subspan(batches_.batches[i].first, batches_.batches[i].count);
+    }
     void build(Frame const& frame, core::ExecutorRef executor);
     void build_draws(Frame const& frame);
     bool move_posed(Frame const& frame, std::uint64_t now);
@@ -59,9 +68,10 @@ class Casters {
     std::shared_ptr<void const> identity_;  ///< Of the geometry; kept, so that no other has it.
     scene::Geometry const* geometry_ = nullptr;
     batch::Batches batches_;  ///< In the order of the objects.
-    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> indices_;      ///< Of the objects' triangles, into their own vertices.
     std::vector<std::uint32_t> range_of_triangle_;
     std::vector<std::uint32_t> instance_of_;  ///< Of each object.
+    std::vector<Vertices> vertices_of_;
     std::vector<std::uint32_t> revisions_;    ///< Of each instance, as they were seen last.
     std::vector<cache::ObjectRecord> records_;
     std::vector<raster::AlphaTest> alpha_tests_;
