@@ -59,10 +59,6 @@ class CascadeShadows {
     /// Layer k: the finished map of cascade k.
     [[nodiscard]] backend::TargetId target() const noexcept { return working_.get(); }
     [[nodiscard]] std::span<CascadeWork const> work() const noexcept { return {work_.data(), frame_.count}; }
-    [[nodiscard]] cache::History const& history(std::uint32_t k) const noexcept { return maps_[k].cached.history(); }
-    [[nodiscard]] Casters const& casters() const noexcept { return casters_; }
-    /// The integer view of cascade k in a frame, for `draw_ortho`.
-    [[nodiscard]] backend::OrthoLayer layer_of(Frame const& frame, std::uint32_t k) const noexcept;
 
   private:
     /// C, what C becomes when it scrolls, and what is known of them.
@@ -87,6 +83,8 @@ class CascadeShadows {
         friend bool operator==(Shape const&, Shape const&) noexcept = default;
     };
 
+    /// Cascade k of a frame, for `draw_ortho`.
+    [[nodiscard]] backend::OrthoLayer layer_of(Frame const& frame, std::uint32_t k) const noexcept;
     void fit_targets(Verbs& verbs, CascadeOptions const& options);
     void fit_objects(Map& map, std::uint32_t k, std::span<math::vec3 const> positions);
     /// What is not a move in light space makes a cached map useless.
