@@ -61,6 +61,14 @@ GNOMON_ROWS_INLINE F8 operator|(F8 a, F8 b) noexcept { return {_mm256_or_ps(a.v,
 GNOMON_ROWS_INLINE F8 and_not(F8 a, F8 b) noexcept { return {_mm256_andnot_ps(b.v, a.v)}; }  ///< a and not b
 GNOMON_ROWS_INLINE F8 select(F8 mask, F8 yes, F8 no) noexcept { return {_mm256_blendv_ps(no.v, yes.v, mask.v)}; }
 GNOMON_ROWS_INLINE std::uint32_t bits_of(F8 mask) noexcept { return static_cast<std::uint32_t>(_mm256_movemask_ps(mask.v)); }
+/// One lane, by its bytes: the compiler may keep numbers of another type in another order.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T lane_of(void const* vector, std::uint32_t lane) noexcept {
+    T one;
+    __builtin_memcpy(&one, static_cast<unsigned char const*>(vector) + sizeof(T) * lane, sizeof(T));
+    return one;
+}
+GNOMON_ROWS_INLINE F8 pick(F8 const& from, std::uint32_t lane) noexcept { return all(lane_of<float>(&from, lane)); }
 /// Each lane's right neighbour; the last lane keeps its own.
 GNOMON_ROWS_INLINE F8 next_lane(F8 a) noexcept {
     return {_mm256_permutevar8x32_ps(a.v, _mm256_setr_epi32(1, 2, 3, 4, 5, 6, 7, 7))};
@@ -75,6 +83,7 @@ GNOMON_ROWS_INLINE I8 greatest(I8 a, I8 b) noexcept { return {_mm256_max_epi32(a
 GNOMON_ROWS_INLINE F8 operator>(I8 a, I8 b) noexcept { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
 GNOMON_ROWS_INLINE I8 minus_one_where(F8 mask) noexcept { return {_mm256_castps_si256(mask.v)}; }
 GNOMON_ROWS_INLINE void store(std::int32_t* to, I8 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a.v); }
+GNOMON_ROWS_INLINE std::uint32_t pick(I8 const& from, std::uint32_t lane) noexcept { return lane_of<std::uint32_t>(&from, lane); }
 GNOMON_ROWS_INLINE F8 gather(float const* from, I8 at) noexcept { return {_mm256_i32gather_ps(from, at.v, 4)}; }
 
 }  // namespace gnomon::cull::detail

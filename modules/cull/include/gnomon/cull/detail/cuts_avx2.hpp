@@ -105,11 +105,6 @@ GNOMON_ROWS_INLINE void gather_cut(RowGrid const& g, Ready8 const& b, I8 k, F8 l
     if (c.crosses) set_cut(b, depth, gather(g.scale.data(), at), gather(g.inverse.data(), at), c);
 }
 
-GNOMON_ROWS_INLINE F8 pick(F8 const& from, std::uint32_t lane) noexcept { return spread(reinterpret_cast<float const*>(&from) + lane); }
-GNOMON_ROWS_INLINE std::uint32_t pick(I8 const& from, std::uint32_t lane) noexcept {
-    return reinterpret_cast<std::uint32_t const*>(&from)[lane];
-}
-
 /// One ball of eight, in every lane.
 GNOMON_ROWS_INLINE void pick(Ready8 const& from, std::uint32_t lane, Ready8& r) noexcept {
     r.x = pick(from.x, lane), r.y = pick(from.y, lane), r.depth = pick(from.depth, lane);

@@ -37,7 +37,7 @@ struct OneSpot {
 };
 
 GNOMON_ROWS_INLINE F8 four(F8 const& a, F8 const& b, F8 const& c, F8 const& d, std::uint32_t lane) noexcept {
-    auto const at = [lane](F8 const& from) { return reinterpret_cast<float const*>(&from)[lane]; };
+    auto const at = [lane](F8 const& from) { return lane_of<float>(&from, lane); };
     return {_mm256_setr_ps(at(a), at(b), at(c), at(d), 0.0F, 0.0F, 0.0F, 0.0F)};
 }
 
