@@ -43,6 +43,13 @@ struct RunFilms {
     Film wrong;
 };
 
+/// A film of one of a run's debug pictures.
+struct DebugFilm {
+    std::string name;
+    std::string caption;
+    Film film;
+};
+
 /// A walk whose frames become pictures and films.
 class Flight {
   public:
@@ -64,7 +71,8 @@ class Flight {
     Outcome<core::Done> fly(int frame) {
         auto compared = walk_.step(frame, made_.pictures || made_.films);
         if (!compared) return std::move(compared).failure();
-        return keep(frame, *compared);
+        if (auto kept = keep(frame, *compared); !kept) return kept;
+        return keep_debug(frame, *compared);
     }
 
     Outcome<core::Done> land() {
@@ -72,6 +80,7 @@ class Flight {
         FlightFilms films;
         if (made_.films)
             if (auto written = write_films(films); !written) return written;
+        if (auto written = write_debug(films); !written) return written;
         if (auto csv = folder_.add("frames.csv", bytes_of(frames_csv(report()))); !csv) return csv;
         if (options_.verb != Verb::render)
             if (auto page = folder_.add("index.html", bytes_of(flight_page_html(report(), films))); !page) return page;
@@ -112,18 +121,45 @@ class Flight {
         return core::Done{};
     }
 
+    /// The same of what shows how the runs got there.
+    Outcome<core::Done> keep_debug(int frame, pipeline::Comparison const& compared) {
+        debug_.resize(compared.runs.size());
+        for (std::size_t i = 0; i < compared.runs.size(); ++i)
+            for (std::size_t k = 0; k < compared.runs[i].pictures.size(); ++k) {
+                pipeline::DebugPicture const& picture = compared.runs[i].pictures[k];
+                Picture const image = picture_of(picture.image);
+                if (k == debug_[i].size())
+                    debug_[i].push_back({std::string(picture.name), std::string(picture.caption), Film({image.size_px, walk_.rate_hz()})});
+                if (options_.verb != Verb::render) debug_[i][k].film.add(image);
+                if (auto added = folder_.add(fmt::format("{}.{}.{:04}.png", plan_[i].slug, picture.name, frame), png_from(image)); !added) return added;
+            }
+        return core::Done{};
+    }
+
+    Outcome<core::Done> write(Film& film, std::string const& name, Bytes& kept) {
+        kept = film.finish();
+        if (kept.empty())
+            return failure(fmt::format("{}: the film cannot be encoded; a side of {}x{} px may be too long for WebP "
+                                       "(16383), or memory ran out",
+                                       name, report().size_px.x, report().size_px.y));
+        return folder_.add(name, kept);
+    }
+
+    Outcome<core::Done> write_debug(FlightFilms& films) {
+        films.runs.resize(plan_.size());
+        for (std::size_t i = 0; i < debug_.size() && options_.verb != Verb::render; ++i)
+            for (DebugFilm& debug : debug_[i]) {
+                films.runs[i].debug.push_back({debug.name, debug.caption, {}});
+                if (auto written = write(debug.film, fmt::format("{}.{}.webp", plan_[i].slug, debug.name), films.runs[i].debug.back().file); !written) return written;
+            }
+        return core::Done{};
+    }
+
     Outcome<core::Done> write_films(FlightFilms& films) {
-        auto const write = [&](Film& film, std::string const& name, Bytes& kept) -> Outcome<core::Done> {
-            kept = film.finish();
-            if (kept.empty())
-                return failure(fmt::format("{}: the film cannot be encoded; a side of {}x{} px may be too long for WebP "
-                                           "(16383), or memory ran out",
-                                           name, report().size_px.x, report().size_px.y));
-            return folder_.add(name, kept);
-        };
         if (options_.truth)
             if (auto exact = write(*exact_, "reference.webp", films.exact); !exact) return exact;
         films.runs.resize(plan_.size());
+        films.has_runs = true;
         for (std::size_t i = 0; i < plan_.size(); ++i) {
             if (auto lit = write(films_[i].lit, plan_[i].slug + ".webp", films.runs[i].lit); !lit) return lit;
             if (!has_overlay()) continue;
@@ -140,6 +176,7 @@ class Flight {
     Products made_;
     Walk walk_;
     std::vector<RunFilms> films_;
+    std::vector<std::vector<DebugFilm>> debug_;  ///< Of each run.
     std::unique_ptr<Film> exact_;
     Bytes results_;
 };

@@ -122,8 +122,8 @@ std::string flight_page_html(Report const& report, FlightFilms const& films) {
                         grouped(report.frames), report.many_lights ? "counts are sums" : "errors are sums",
                         report.many_lights ? "" : ", an edge error's maximum is that of the worst frame");
     html += plots_html(report) + frames_table_html(report);
-    if (!films.runs.empty()) html += films_html(report, films);
-    return html + page_foot(report);
+    if (films.has_runs) html += films_html(report, films);
+    return html + debug_html(report, films.runs) + page_foot(report);
 }
 
 std::string frames_csv(Report const& report) {

@@ -12,11 +12,12 @@ namespace gnomon::command {
 struct FlightFilms {
     Bytes exact;
     std::vector<RunPictures> runs;  ///< One for each run of the report; `marks` are the wrong pixels, as in the files.
+    bool has_runs = false;          ///< Else of `runs` only `debug` is there.
 };
 
 /// The whole page: style, films as data URIs, plots over the frames, a table of them; nothing is loaded from elsewhere.
 ///
-/// expects: `films.runs` is empty (no films were made) or has one entry a run.
+/// expects: `films.runs` is empty or has one entry a run.
 [[nodiscard]] std::string flight_page_html(Report const& report, FlightFilms const& films);
 
 /// Every frame of every run as comma-separated values under a line of names; counts are in columns of their own.

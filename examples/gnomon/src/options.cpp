@@ -185,6 +185,7 @@ Outcome<core::Done> take_running(RawOptions const& raw, RunOptions& run) {
     run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
     run.repeats = run.verb == Verb::compare && !raw.path ? 3 : 1;
     run.truth = !raw.no_truth;
+    run.debug = raw.debug;
     run.json = raw.json;
     run.out = raw.out;
     std::optional<core::Failure<Exit>> error;

@@ -76,6 +76,7 @@ struct RunOptions {
     int threads = 1;
     int repeats = 1;
     bool truth = true;
+    bool debug = false;               ///< Pictures of how each run got there.
     std::optional<std::string> json;  ///< "-" is standard output.
     std::optional<std::string> out;   ///< A folder.
     std::string command;              ///< As typed.

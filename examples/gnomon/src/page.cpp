@@ -67,7 +67,7 @@ std::string page_html(Report const& report, ReportPictures const& pictures) {
     html += fmt::format("<p>All runs: {} Click a picture to see it pixel for pixel.</p>\n<div class='cards'>\n",
                         choice_html(report, "all", " data-all='show-lit'", " data-all='show-wrong'"));
     for (std::size_t i = 0; i < report.runs.size(); ++i) html += card_html(report, report.runs[i], pictures.runs[i], i);
-    html += "</div>\n" + page_foot(report);
+    html += "</div>\n" + debug_html(report, pictures.runs) + page_foot(report);
     return html;
 }
 

@@ -158,6 +158,15 @@ std::string card_html(Report const& report, Run const& run, RunPictures const& p
         grouped(error.false_lit), grouped(error.false_shadow), figures(run.result.ms.median), pace, details_html(run));
 }
 
+std::string debug_html(Report const& report, std::vector<RunPictures> const& pictures) {
+    std::string html;
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        for (DebugFile const& debug : pictures[i].debug)
+            html += fmt::format("<figure class='debug'><img alt='{0}, {1}' src='{2}'><figcaption><b>{0}</b>, {1}. {3}</figcaption></figure>\n",
+                                escaped(report.runs[i].label), escaped(debug.name), data_uri(debug.file), escaped(debug.caption));
+    return html.empty() ? html : "<h2>How they got there</h2>\n" + html;
+}
+
 std::string rows_html(std::vector<std::vector<std::string>> const& rows) {
     std::string html = "<div class='wide'><table>\n<thead>";
     for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::command {
 
@@ -33,16 +34,27 @@ namespace gnomon::command {
 /// One row a run.
 [[nodiscard]] std::string table_html(Report const& report);
 
+/// A picture or film of how a run got there.
+struct DebugFile {
+    std::string name;  ///< Of the picture: "maps".
+    std::string caption;
+    Bytes file;
+};
+
 /// Pictures or films of one run, made once for the folder and the page.
 struct RunPictures {
     Bytes lit;
     Bytes overlay;
     Bytes marks;  ///< The overlay for the page, where pictures are small: wrong pixels drawn larger.
+    std::vector<DebugFile> debug;
 };
 
 /// A run with its pictures; `index` keeps the cards of a page apart.
 [[nodiscard]] std::string card_html(Report const& report, Run const& run, RunPictures const& pictures,
                                     std::size_t index);
+
+/// All runs' pictures of how they got there, with their captions; nothing where there are none.
+[[nodiscard]] std::string debug_html(Report const& report, std::vector<RunPictures> const& pictures);
 
 inline constexpr std::string_view explanation =
     "<p>Every pixel that shows a surface is one sample. For each, exact arithmetic decides whether anything stands "

@@ -23,6 +23,7 @@ code { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, monospace; overf
 pre { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 12px 14px; overflow-x: auto; margin: 0; white-space: pre-wrap; }
 .top { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 28px; align-items: start; }
 figure { margin: 0; }
+.debug { margin: 0 0 28px; }
 figcaption { color: var(--soft); font-size: 14px; margin-top: 6px; }
 img { display: block; width: 100%; height: auto; border-radius: 6px; cursor: zoom-in; background: var(--line); }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: 6px 16px; margin: 0; font-size: 14px; }

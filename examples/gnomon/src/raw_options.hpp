@@ -15,7 +15,7 @@ struct RawOptions {
     std::optional<std::string> triangles, blocks, offset, seed, lights, moving;
     std::optional<std::string> eye, look, fov, camera, near, far;
     std::optional<std::string> path, frames, time, clip, file_scene;
-    bool no_truth = false, trees = false;
+    bool no_truth = false, trees = false, debug = false;
     std::optional<std::string> sun, point, light;
     std::vector<std::string> techniques, params, motions;
     std::optional<std::string> size, device, threads, repeats, json, out, write, most_lights;

@@ -25,6 +25,10 @@ ReportPictures compress(Report const& report, bool overlays, core::ExecutorRef e
     for (std::size_t i = 0; i < report.runs.size(); ++i) {
         jobs.emplace_back(&report.runs[i].result.lit, &pictures.runs[i].lit);
         if (overlays) jobs.emplace_back(&report.runs[i].result.overlay, &pictures.runs[i].overlay);
+        auto& debug = pictures.runs[i].debug;
+        for (pipeline::DebugPicture const& picture : report.runs[i].result.pictures)
+            debug.push_back({std::string(picture.name), std::string(picture.caption), {}});
+        for (std::size_t k = 0; k < debug.size(); ++k) jobs.emplace_back(&report.runs[i].result.pictures[k].image, &debug[k].file);
     }
     executor.parallel_for(jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) *jobs[i].second = png_from(picture_of(*jobs[i].first));
@@ -50,6 +54,7 @@ std::vector<OutputFile> files_of(Report const& report, Verb verb, core::Executor
         files.push_back({slug + (compares ? ".lit.png" : ".png"), std::move(pictures.runs[i].lit)});
         if (compares)
             files.push_back({slug + (report.many_lights ? ".lights.png" : ".wrong.png"), std::move(pictures.runs[i].overlay)});
+        for (DebugFile& debug : pictures.runs[i].debug) files.push_back({slug + '.' + debug.name + ".png", std::move(debug.file)});
     }
     std::vector<std::string> names;
     for (OutputFile const& file : files) names.push_back(file.name);
@@ -97,6 +102,7 @@ Outcome<Report> measure(RunOptions const& options, std::vector<PlannedRun> const
     pipeline::CompareConfig config;
     config.repeats = options.repeats;
     config.truth = options.truth;
+    config.debug = options.debug;
     config.progress = {&StepsOfRuns::report, &steps_of_runs};
     auto compared = Requests(plan, *backends).compare(*frame, *light, config, executor);
     if (!compared) return std::move(compared).failure();

@@ -53,6 +53,7 @@ Outcome<pipeline::Comparison> Walk::step(int frame, bool images) {
     pipeline::CompareConfig config;
     config.repeats = options_.repeats;
     config.images = images;
+    config.debug = options_.debug;
     config.truth = options_.truth;
     config.shading.exposure = exposure_;
     config.heat_most = report_.heat_most;
@@ -82,6 +83,7 @@ void Walk::record(int frame, double time_s, pipeline::Comparison const& compared
         report_.runs[i].result = run;
         report_.runs[i].result.lit = {};
         report_.runs[i].result.overlay = {};
+        report_.runs[i].result.pictures.clear();
     }
 }
 

@@ -178,3 +178,29 @@ TEST_CASE("a path's report sums errors and counts and takes the median time", "[
     REQUIRE(total.counts.size() == 1);
     CHECK(total.counts[0].value == 6);
 }
+
+TEST_CASE("with --debug, techniques that keep maps show them: files, a film, the page", "[command][flight]") {
+    TestFolder const folder;
+    std::string const scene = write_sliding_table(folder);
+    std::vector<std::string> const run = {scene, "--sun", "0.3,-1,0.2", "--techniques", "shadow-map,csm-scroll", "--param", "csm-scroll.resolution=64",
+                                          "--size", "32x24", "--debug"};
+    auto const with = [&](std::vector<std::string> words, std::vector<std::string> const& more) {
+        words.insert(words.end(), run.begin(), run.end());
+        words.insert(words.end(), more.begin(), more.end());
+        Ended const ended = gnomon_in(folder.path(), words);
+        CAPTURE(ended.err);
+        CHECK(ended.exit_code == 0);
+    };
+    with({"flythrough"}, {"--frames", "2", "--no-truth", "--out", "film"});
+    for (char const* name : {"csm-scroll-resolution-64.maps.0001.png", "csm-scroll-resolution-64.tint.0000.png", "csm-scroll-resolution-64.maps.webp"}) {
+        CAPTURE(name);
+        CHECK(fs::exists(folder / "film" / name));
+    }
+    CHECK(contains(read_text(folder / "film" / "index.html"), "How they got there"));
+    CHECK(contains(read_text(folder / "film" / "results.json"), "csm-scroll-resolution-64.tint.webp"));
+    CHECK(first_error(flight_results(folder / "film")) == "");
+    with({"compare"}, {"--repeats", "1", "--out", "page"});
+    CHECK(fs::exists(folder / "page" / "csm-scroll-resolution-64.maps.png"));
+    CHECK_FALSE(fs::exists(folder / "page" / "shadow-map.maps.png"));
+    CHECK(contains(read_text(folder / "page" / "index.html"), "csm-scroll resolution=64, maps"));
+}

@@ -6,6 +6,7 @@
 #include <gnomon/pipeline/report.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::pipeline {
 
@@ -20,11 +21,12 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     Workspace& workspace = request.workspace != nullptr ? *request.workspace : own;
     backend::Backend& device = request.device != nullptr ? *request.device : workspace.own_backend(executor);
     report.backend = std::string(device.name());
-    TechniqueRun const on{frame, request.params, workspace, device, executor};
+    TechniqueRun on{frame, request.params, workspace, device, executor};
     std::vector<std::vector<StageTime>> repeats;
     TechniqueOutput output;
     int const runs = request.technique->keeps_maps ? 1 : std::max(config.repeats, 1);
     for (int i = 0; i < runs; ++i) {
+        on.debug = config.debug && i + 1 == runs;
         auto result = request.technique->run(on);
         if (!result) return std::move(result).failure();
         output = std::move(result).value();
@@ -35,6 +37,10 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     report.bytes = output.bytes;
     report.redraw_reasons = output.redraw_reasons;
     if (config.images) report.lit = picture(frame, shading, output.visibility);
+    report.pictures = std::move(output.pictures);
+    if (!output.tint.empty())
+        report.pictures.push_back({"tint", "Each surface in the colour of the map that it looks into.",
+                                   tinted_picture(frame, shading, output.visibility, output.tint)});
     report.measured = has_truth(frame);
     report.error.samples = frame.samples.size();
     if (!report.measured) return report;

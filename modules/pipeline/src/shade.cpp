@@ -168,6 +168,17 @@ Image picture(Frame const& frame, Shading const& shading, std::span<float const>
         frame, [&](std::size_t i) { return displayed(shading, i, visibility[i]); }, 0.0F);
 }
 
+Image tinted_picture(Frame const& frame, Shading const& shading, std::span<float const> visibility,
+                     std::span<math::vec3 const> tint) {
+    auto const color = [&](std::size_t i) {
+        // Most of the surface's own colour goes: the tint is to be read, the scene to be recognized.
+        math::vec3 const own = displayed(shading, i, visibility[i]);
+        bool const plain = tint[i] == math::vec3(1.0F);
+        return plain ? own : (math::vec3(luminance(own)) * 0.9F + math::vec3(0.1F)) * tint[i];
+    };
+    return painted(frame, color, 0.0F);
+}
+
 Image error_overlay(Frame const& frame, Shading const& shading, std::span<float const> visibility) {
     auto const color = [&](std::size_t i) {
         Verdict const verdict = verdict_of(visibility[i], frame.lit[i]);

@@ -41,6 +41,7 @@ struct CascadeRunner {
     core::SerialExecutor executor;
     CascadeCapture device;
     pipeline::Workspace workspace;
+    bool debug = false;
 
     CascadeRunner(backend::Backend& on, std::string const& name, std::vector<pipeline::Setting> const& settings = {}) : device(on) {
         technique = pipeline::find_technique(name).value();
@@ -49,7 +50,7 @@ struct CascadeRunner {
     ~CascadeRunner() { workspace.clear(); }
 
     pipeline::TechniqueOutput operator()(pipeline::Frame const& frame) {
-        auto output = technique->run({frame, params, workspace, device, executor});
+        auto output = technique->run({frame, params, workspace, device, executor, debug});
         CAPTURE(output ? std::string() : output.failure().message);
         REQUIRE(output.has_value());
         return std::move(output).value();

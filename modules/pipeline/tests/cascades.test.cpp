@@ -4,6 +4,7 @@
 
 #include <gnomon/raster/cpu_backend.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -54,7 +55,53 @@ Shares fly(std::string const& path, double moving, std::size_t first, std::size_
     return shares;
 }
 
+/// Of the sheet's cell in `row` of map `k`: pixels of a strong red, and those that are not white.
+struct Cell {
+    std::uint64_t red = 0;
+    std::uint64_t drawn = 0;
+
+    Cell(pipeline::Image const& sheet, int row, int k) {
+        for (int y = 0; y < 512; ++y)
+            for (int x = 0; x < 512; ++x) {
+                std::size_t const pixel = static_cast<std::size_t>(8 + row * 520 + y) * static_cast<std::size_t>(sheet.size_px.x) +
+                                          static_cast<std::size_t>(8 + k * 520 + x);
+                std::uint8_t const* const rgb = sheet.rgb.data() + pixel * 3;
+                red += rgb[0] > 2 * rgb[1] && rgb[0] > 2 * rgb[2] ? 1U : 0U;
+                drawn += rgb[0] != 255 || rgb[1] != 255 || rgb[2] != 255 ? 1U : 0U;
+            }
+    }
+};
+
 }  // namespace
+
+TEST_CASE("the picture of maps that scroll shows in red what was drawn, and asking for it changes no result", "[pipeline][cascade]") {
+    Town town("spin", 0);
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    CascadeRunner plain(cpu, "csm-scroll"), told(cpu, "csm-scroll");
+    told.debug = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+        pipeline::Frame const frame = town.frame(i);
+        auto const without = plain(frame), with = told(frame);
+        CHECK(without.pictures.empty());
+        CHECK(with.visibility == without.visibility);
+        CHECK(with.stages.size() == without.stages.size());
+        CHECK(with.tint.size() == frame.samples.size());
+        REQUIRE(with.pictures.size() == 1);
+        pipeline::Image const& sheet = with.pictures.front().image;
+        REQUIRE(sheet.size_px == math::ivec2(8 + 4 * 520, 8 + 3 * 520));
+        for (int k = 0; k < 4; ++k) {
+            Cell const finished(sheet, 0, k), kept(sheet, 1, k), drawn(sheet, 2, k);
+            auto const first = told.device.codes.begin() + k * 512 * 512;
+            auto const covered = static_cast<std::uint64_t>(std::count_if(first, first + 512 * 512, [](std::uint16_t code) { return code != 65535; }));
+            CHECK(finished.drawn == covered);
+            CHECK(finished.red == 0);  // nothing moves
+            CHECK(kept.drawn + drawn.red == covered);
+            CHECK((kept.drawn == 0) == (i == 0));
+            if (i != 0) CHECK((drawn.red > 5000 && drawn.red < 30000));
+        }
+    }
+}
 
 TEST_CASE("maps that scroll are those drawn anew, along town's street with cars about", "[pipeline][cascade]") {
     CHECK(fly("street", 10, 40, 46).redraws == 0);

@@ -220,10 +220,38 @@ void CascadeShadows::draw_actives(Verbs& verbs, Frame const& frame, std::uint32_
     draw_objects(verbs, working_.get(), layer, map.plan.actives, work_[k]);
 }
 
-void CascadeShadows::draw(Verbs& verbs, Frame const& frame) {
+void CascadeShadows::note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, std::vector<std::byte>& bytes) {
+    backend::Rect const whole{0, 0, shape_.size_px.x, shape_.size_px.y};
+    bytes.resize(texels(frame_.cascades[0].volume) * (shape_.format == backend::DepthFormat::unorm16 ? 2U : 4U));
+    verbs(verbs.device().read({target, layer, backend::Plane::depth, whole}, bytes));
+}
+
+void CascadeShadows::note_kept(Verbs& verbs, std::vector<MapSteps>& steps) {
+    verbs.device().stage("");
+    steps.assign(frame_.count, {});
+    for (std::uint32_t k = 0; k < frame_.count; ++k) {
+        Map const& map = maps_[k];
+        bool const keeps = shape_.reuse != CascadeReuse::none && map.plan.action != cache::MapAction::redraw;
+        std::int32_t const size = shape_.size_px.x;
+        steps[k].exposed = keeps ? cascade::exposed_by({map.plan.shift.x, map.plan.shift.y, 0}, size)
+                                 : cascade::ExposedRects{1, {cascade::TexelRect{0, 0, size, size}, cascade::TexelRect{}}};
+        if (keeps) note(verbs, map.content[map.shown].get(), 0, steps[k].kept);
+    }
+}
+
+void CascadeShadows::note_drawn(Verbs& verbs, std::vector<MapSteps>& steps) {
+    verbs.device().stage("");
+    for (std::uint32_t k = 0; k < frame_.count; ++k) {
+        if (shape_.reuse != CascadeReuse::none) note(verbs, maps_[k].content[maps_[k].shown].get(), 0, steps[k].content);
+        note(verbs, working_.get(), k, steps[k].finished);
+    }
+}
+
+void CascadeShadows::draw(Verbs& verbs, Frame const& frame, std::vector<MapSteps>* steps) {
     bool const cached = shape_.reuse != CascadeReuse::none;
     if (shape_.reuse == CascadeReuse::scroll) verbs.device().stage("scroll");
     for (std::uint32_t k = 0; k < frame_.count && cached; ++k) scroll(verbs, k);
+    if (steps != nullptr) note_kept(verbs, *steps);
     if (cached) verbs.device().stage("static");
     for (std::uint32_t k = 0; k < frame_.count && cached; ++k) draw_statics(verbs, frame, k);
     verbs.device().stage(cached ? "active" : "depth_pass");
@@ -231,6 +259,7 @@ void CascadeShadows::draw(Verbs& verbs, Frame const& frame) {
         draw_actives(verbs, frame, k);
         if (cached) maps_[k].cached.commit();
     }
+    if (steps != nullptr) note_drawn(verbs, *steps);
     cascade::commit(cascades_, frame_);
 }
 

@@ -5,6 +5,7 @@
 #include <gnomon/cascade/cascades.hpp>
 
 #include "casters.hpp"
+#include "map_pictures.hpp"
 
 #include <array>
 #include <cstdint>
@@ -51,13 +52,15 @@ class CascadeShadows {
     /// Brings the maps up to date, in stages "scroll", "static" and "active", or "depth_pass" alone.
     ///
     /// expects: `prepare` of the same frame before.
-    void draw(Verbs& verbs, Frame const& frame);
+    /// `steps`: where not null, what each map holds on the way is read back into it, in no stage; filled by `finish`.
+    void draw(Verbs& verbs, Frame const& frame, std::vector<MapSteps>* steps = nullptr);
     /// Gives up all maps: after a failure nobody knows what they hold.
     void forget() noexcept;
 
     [[nodiscard]] cascade::CascadeFrame const& frame() const noexcept { return frame_; }
     /// Layer k: the finished map of cascade k.
     [[nodiscard]] backend::TargetId target() const noexcept { return working_.get(); }
+    [[nodiscard]] MapFormat format() const noexcept { return {shape_.size_px.x, shape_.format, shape_.depth}; }
     [[nodiscard]] std::span<CascadeWork const> work() const noexcept { return {work_.data(), frame_.count}; }
 
   private:
@@ -95,6 +98,10 @@ class CascadeShadows {
     void scroll(Verbs& verbs, std::uint32_t k);
     void draw_statics(Verbs& verbs, Frame const& frame, std::uint32_t k);
     void draw_actives(Verbs& verbs, Frame const& frame, std::uint32_t k);
+    void note_kept(Verbs& verbs, std::vector<MapSteps>& steps);
+    void note_drawn(Verbs& verbs, std::vector<MapSteps>& steps);
+    /// Reads one layer back.
+    void note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, std::vector<std::byte>& bytes);
 
     CascadeOptions options_;
     Casters casters_;

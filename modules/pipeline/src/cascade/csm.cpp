@@ -140,6 +140,30 @@ void count(CascadeShadows const& shadows, CascadeOptions const& options, std::si
     output.bytes = {{"shadow_maps", texels * (options.format == backend::DepthFormat::unorm16 ? 2U : 4U)}};
 }
 
+/// Four that differ for most eyes, then the same paler.
+constexpr std::array<math::vec3, cascade::max_cascades> tints{
+    math::vec3(1.0F, 0.25F, 0.20F), math::vec3(0.20F, 0.80F, 0.25F), math::vec3(0.25F, 0.45F, 1.0F), math::vec3(1.0F, 0.75F, 0.10F),
+    math::vec3(1.0F, 0.65F, 0.60F), math::vec3(0.60F, 0.95F, 0.62F), math::vec3(0.65F, 0.78F, 1.0F), math::vec3(1.0F, 0.92F, 0.60F)};
+
+/// The colour of each sample's cascade, by the choice that the lookup makes; white beyond the last.
+std::vector<math::vec3> tint_of(Frame const& frame, cascade::CascadeFrame const& cascades) {
+    cascade::CascadeDepths const splits = cascade::cascade_depths(cascades);
+    math::vec3 const eye = math::to_float(frame.view.eye_m - frame.geometry->origin_m);
+    math::vec3 const sight = -math::to_float(frame.view.back);
+    auto const color = [&](std::uint32_t k) { return k < cascades.count ? tints[k] : math::vec3(1.0F); };
+    std::vector<math::vec3> tint;
+    for (math::vec3 const& position : frame.samples.position) {
+        math::vec3 const way = position - eye;
+        auto const choice = cascade::choose_by_depth(splits, (way.x * sight.x + way.y * sight.y) + way.z * sight.z);
+        tint.push_back(color(choice.cascade) * (1.0F - choice.blend) + color(choice.next) * choice.blend);
+    }
+    return tint;
+}
+
+constexpr std::string_view maps_caption =
+    "A column for each cascade, near to far. Top: the finished maps, active casters in amber. Middle: what was kept of the frame before, moved "
+    "along, in blue. Bottom: what was drawn to it, in red; pale red where a strip stayed empty.";
+
 template <CascadeReuse reuse>
 Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
     if (on.frame.light.kind != LightKind::directional)
@@ -158,7 +182,8 @@ Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
     Stopwatch watch;
     if (auto ok = runs.shadows.prepare(on.frame); !ok) return std::move(ok).failure();
     double const plan_ms = watch.lap_ms();
-    runs.shadows.draw(verbs, on.frame);
+    std::vector<MapSteps> steps;
+    runs.shadows.draw(verbs, on.frame, on.debug ? &steps : nullptr);
     on.device.stage("lookup");
     look_up_all(verbs, on, options);
     on.device.stage("");
@@ -175,6 +200,10 @@ Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
     output.stages = joined(stages);
     output.stages.insert(output.stages.begin(), {"plan", plan_ms});
     count(runs.shadows, options, n, output);
+    if (on.debug) {
+        output.pictures.push_back({"maps", maps_caption, picture_of_maps(steps, runs.shadows.format())});
+        output.tint = tint_of(on.frame, runs.shadows.frame());
+    }
     return output;
 }
 

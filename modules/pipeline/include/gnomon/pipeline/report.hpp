@@ -37,6 +37,7 @@ struct RunReport {
     std::vector<Count> redraw_reasons;
     Image lit;      ///< The picture with this technique's shadows.
     Image overlay;  ///< Wrong samples in two colours, empty without truth; of a lighting technique its `heat_map`.
+    std::vector<DebugPicture> pictures;  ///< If they were asked for; "tint" is the picture in the technique's colours.
 };
 
 struct RunRequest {
@@ -68,6 +69,7 @@ struct CompareConfig {
     ShadeConfig shading;
     bool truth = true;           ///< Of lighting techniques: find their truth. A shadow's is the frame's own.
     std::uint32_t heat_most = 0; ///< Lights that are white in a heat map; 0: what suits the runs.
+    bool debug = false;          ///< Fill `pictures`, in the last of the repeats.
     Progress progress;
 };
 

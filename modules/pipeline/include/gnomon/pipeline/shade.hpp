@@ -36,6 +36,10 @@ struct Shading {
 /// The picture for these visibilities: tone mapped, sRGB, a sky behind.
 [[nodiscard]] Image picture(Frame const& frame, Shading const& shading, std::span<float const> visibility);
 
+/// The same, each sample's surface in a colour of `tint` (linear RGB, white as it is).
+[[nodiscard]] Image tinted_picture(Frame const& frame, Shading const& shading, std::span<float const> visibility,
+                                   std::span<math::vec3 const> tint);
+
 /// The same picture in grey, false-lit samples in orange, false-shadow ones in blue.
 [[nodiscard]] Image error_overlay(Frame const& frame, Shading const& shading, std::span<float const> visibility);
 

@@ -5,6 +5,7 @@
 #include <gnomon/core/executor.hpp>
 #include <gnomon/pipeline/error.hpp>
 #include <gnomon/pipeline/frame.hpp>
+#include <gnomon/pipeline/image.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -62,6 +63,13 @@ struct Count {
     std::uint64_t value = 0;
 };
 
+/// A picture of how a technique came to its result.
+struct DebugPicture {
+    std::string_view name;     ///< Of files: a word.
+    std::string_view caption;  ///< What is to be seen, in sentences.
+    Image image;
+};
+
 /// What a technique gives: per sample and in total.
 struct TechniqueOutput {
     std::vector<float> visibility;      ///< In [0, 1], one per sample; 1 is lit.
@@ -71,6 +79,9 @@ struct TechniqueOutput {
     std::vector<Count> counts;          ///< By the names of design section 10.
     std::vector<Count> bytes;
     std::vector<Count> redraw_reasons;  ///< Of techniques that keep maps: why each was drawn to, of a part of it too.
+    std::vector<DebugPicture> pictures;  ///< If they were asked for, and the technique has any.
+    /// Likewise: a colour for each sample, linear RGB, such as that of the map it looks into; or empty.
+    std::vector<math::vec3> tint;
 };
 
 /// What a technique leaves on a backend for its next run: what was staged of a frame and its geometry, maps, buffers.
@@ -104,6 +115,7 @@ struct TechniqueRun {
     Workspace& workspace;
     backend::Backend& device;    ///< Draws, and runs the kernels.
     core::ExecutorRef executor;  ///< For what the host does: fitting, building, measuring.
+    bool debug = false;          ///< Debug pictures are wanted. Making them is in no stage's time.
 };
 
 /// A technique. Plain data: the table is the only registry.

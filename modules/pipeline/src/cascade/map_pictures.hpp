@@ -1,0 +1,38 @@
+#pragma once
+// Shadow maps that are kept, as pictures: what was kept of each, and what was drawn. [CSM Scrolling, figures 3 and 4]
+
+#include <gnomon/backend/pass.hpp>
+#include <gnomon/cascade/step.hpp>
+#include <gnomon/math/view.hpp>
+#include <gnomon/pipeline/image.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// What a map held at three points of a frame: texels as they are stored, rows from the top. Empty: there was none.
+struct MapSteps {
+    std::vector<std::byte> kept;      ///< The static casters' map before anything was drawn to it, scrolled already.
+    std::vector<std::byte> content;   ///< The same after that.
+    std::vector<std::byte> finished;  ///< With active casters.
+    cascade::ExposedRects exposed;    ///< What scrolling left without content.
+};
+
+struct MapFormat {
+    std::int32_t size_px = 0;
+    backend::DepthFormat format = backend::DepthFormat::unorm16;
+    math::Depth depth = math::Depth::forward;
+};
+
+/// A column for each map. From the top: the finished map in grey, what active casters cover in amber; what was kept, in
+/// blue; what was drawn to the static casters' map, in red over what was kept. Darker is nearer to the light; white is
+/// empty, and pale red what a strip left empty.
+///
+/// A pixel a texel; of maps above 512 texels each pixel shows the most telling of several.
+/// expects: `finished` of each is there.
+[[nodiscard]] Image picture_of_maps(std::span<MapSteps const> maps, MapFormat const& format);
+
+}  // namespace gnomon::pipeline
