@@ -72,11 +72,15 @@ struct AlphaRule {
 /// Unit vector from a work-space position to the frame's light.
 [[nodiscard]] math::vec3 toward_light(Frame const& frame, math::vec3 const& position) noexcept;
 
+/// One more of this name.
+void add_one(std::string_view name, std::vector<Count>& counts);
+
 /// Number of samples whose false-lit state the applied bias explains.
 [[nodiscard]] std::uint64_t count_detached(Frame const& frame, TechniqueOutput const& output,
                                            core::ExecutorRef executor);
 
 [[nodiscard]] Technique shadow_map_technique() noexcept;
+[[nodiscard]] Technique shadow_map_cached_technique() noexcept;
 [[nodiscard]] Technique ray_technique() noexcept;
 [[nodiscard]] std::array<Technique, 3> cascade_techniques() noexcept;
 [[nodiscard]] LightingTechnique deferred_technique() noexcept;

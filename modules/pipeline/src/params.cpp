@@ -16,10 +16,10 @@ namespace gnomon::pipeline {
 
 namespace {
 
-std::array<Technique, 5> const& table() noexcept {
-    static std::array<Technique, 5> const all = [] {
+std::array<Technique, 6> const& table() noexcept {
+    static std::array<Technique, 6> const all = [] {
         auto const [csm, csm_cached, csm_scroll] = cascade_techniques();
-        return std::array{shadow_map_technique(), csm, csm_cached, csm_scroll, ray_technique()};
+        return std::array{shadow_map_technique(), shadow_map_cached_technique(), csm, csm_cached, csm_scroll, ray_technique()};
     }();
     return all;
 }
@@ -129,6 +129,12 @@ Result<Params> read_params(Owner const& owner, std::span<Setting const> settings
 }
 
 }  // namespace
+
+void add_one(std::string_view name, std::vector<Count>& counts) {
+    auto const same = std::find_if(counts.begin(), counts.end(), [&](Count const& c) { return c.name == name; });
+    if (same == counts.end()) counts.push_back({name, 1});
+    else ++same->value;
+}
 
 double Params::number(std::string_view name) const noexcept {
     Value const* const value = find_value(values, name);

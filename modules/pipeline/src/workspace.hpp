@@ -8,6 +8,9 @@
 #include "cascade/cascade_shadows.hpp"
 #include "detail.hpp"
 #include "lighting/lighting.hpp"
+#include "shadow/cached_lights.hpp"
+#include "shadow/light_fit.hpp"
+#include "shadow/shadow_maps.hpp"
 #include "staged.hpp"
 
 #include <cstdint>
@@ -16,20 +19,11 @@
 
 namespace gnomon::pipeline {
 
-/// Of the technique `shadow-map`.
-struct ShadowMaps {
-    DrawList draws;
-    std::shared_ptr<Surfaces const> drawn;  ///< What `draws` were made of.
-    raster::Cull cull = raster::Cull::none;
-    Held<backend::DrawListId> list;  ///< Of `draws`, which it may point into.
-    backend::TargetConfig config;
-    Held<backend::TargetId> target;  ///< Made by `config`; a layer for each map.
-    std::vector<math::View> views;
-    std::vector<shadow::MapView> maps;
-    std::vector<backend::PassLayer> layers;
-    StagedBuffer map_views;
-    StagedBuffer visibility;
-    StagedBuffer bias_m;
+/// Of the technique `shadow-map-cached`.
+struct CachedLightRuns {
+    ShadowMaps shadow;
+    CachedLights lights;
+    NearestCaster nearest;
 };
 
 /// Of the technique `ray`.
@@ -56,6 +50,7 @@ struct Workspace::State {
     backend::Backend* device = nullptr;       ///< Whose ids follow.
     StagedSamples samples;
     ShadowMaps shadow;
+    CachedLightRuns cached_lights;
     CascadeRuns cascades;
     Rays rays;
     Lighting lighting;
@@ -69,6 +64,7 @@ struct Workspace::State {
     void clear() noexcept {
         samples = {};
         shadow = {};
+        cached_lights = {};
         cascades = {};
         rays = {};
         lighting = {};

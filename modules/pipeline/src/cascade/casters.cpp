@@ -58,27 +58,36 @@ void Casters::build(Frame const& frame, core::ExecutorRef executor) {
     records_.assign(size(), {});
 }
 
+void Casters::add_alpha_test(Frame const& frame, scene::Material const& material, Vertices const& own) {
+    scene::Texture const& texture = *base_texture(*frame.scene, material);
+    scene::Image const& image = *base_image(*frame.scene, material);
+    raster::AlphaTest test{std::span<math::vec2 const>(frame.geometry->uv).subspan(own.first, own.count), {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v},
+                           static_cast<double>(material.base_color.w), alpha_rule(*frame.scene, material).cutoff};
+    auto const same = std::find_if(alpha_maps_.begin(), alpha_maps_.end(), [&](raster::AlphaMap const& map) { return map.is_of(test); });
+    test.map = same != alpha_maps_.end() ? &*same : &alpha_maps_.emplace_back(raster::make_alpha_map(test));
+    alpha_tests_.push_back(test);
+}
+
 void Casters::build_draws(Frame const& frame) {
     scene::Geometry const& g = *frame.geometry;
     resting_ = {};
     posed_ = {};
     alpha_tests_.clear();
+    alpha_maps_.clear();
     alpha_tests_.reserve(size());  // pointed to
     for (std::size_t i = 0; i < size(); ++i) {
         batch::Batch const& batch = batches_.batches[i];
         scene::Material const& material = frame.scene->materials[g.ranges[batch.group].material];
         AlphaRule const rule = alpha_rule(*frame.scene, material);
         raster::Draw draw;
+        draw.cull = material.double_sided ? raster::Cull::none : config_.cull;
         Vertices const& own = vertices_of_[i];
         if (!rule.nothing) {
             draw.positions = std::span<math::vec3 const>(g.positions).subspan(own.first, own.count);
             draw.indices = std::span<std::uint32_t const>(indices_).subspan(std::size_t{batch.first} * 3, std::size_t{batch.count} * 3);
         }
         if (rule.tested) {
-            scene::Texture const& texture = *base_texture(*frame.scene, material);
-            scene::Image const& image = *base_image(*frame.scene, material);
-            alpha_tests_.push_back({std::span<math::vec2 const>(g.uv).subspan(own.first, own.count), {image.rgba, image.size_px, texture.wrap_u, texture.wrap_v},
-                                    static_cast<double>(material.base_color.w), rule.cutoff});
+            add_alpha_test(frame, material, own);
             draw.alpha_test = &alpha_tests_.back();
         }
         (i < first_posed_ ? resting_ : posed_).draws.push_back(draw);
@@ -106,27 +115,31 @@ bool Casters::move_posed(Frame const& frame, std::uint64_t now) {
     return moved;
 }
 
+void Casters::keep(Verbs& verbs, bool all) {
+    if (all) resting_.kept = Held(verbs.device(), verbs(verbs.device().keep(resting_.draws)));
+    posed_.kept = {};
+    posed_.kept = Held(verbs.device(), verbs(verbs.device().keep(posed_.draws)));
+}
+
 bool Casters::follow(Verbs& verbs, Frame const& frame, CasterConfig const& config, std::uint64_t now, core::ExecutorRef executor) {
     scene::Geometry const& g = *frame.geometry;
     bool const other = geometry_ != &g || identity_ != g.identity || config.batch_triangles != config_.batch_triangles;
+    bool const turned = config.cull != config_.cull;
     config_ = config;
     bool moved = false;
     if (other) {
         identity_ = nullptr;
         build(frame, executor);
-        build_draws(frame);
         for (std::size_t i = 0; i < size(); ++i) {
             records_[i].mobility = i < first_posed_ ? cache::Mobility::fixed : cache::Mobility::automatic;
             records_[i] = cache::advance(records_[i], cache::ObjectEvent::appeared, now);
         }
-        resting_.kept = Held(verbs.device(), verbs(verbs.device().keep(resting_.draws)));
     } else {
         moved = move_posed(frame, now);
     }
-    if (other || moved) {
-        posed_.kept = {};
-        posed_.kept = Held(verbs.device(), verbs(verbs.device().keep(posed_.draws)));
-    }
+    if (other || turned) build_draws(frame);
+    redrawn_ = other || turned || moved;
+    if (config.keeps_lists && redrawn_) keep(verbs, other || turned);
     for (cache::ObjectRecord& record : records_) record = cache::settle(record, config.rest, now);
     if (!verbs.good()) return true;
     geometry_ = &g;

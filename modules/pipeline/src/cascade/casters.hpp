@@ -11,6 +11,7 @@
 #include "../staged.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,8 @@ struct CasterList {
 struct CasterConfig {
     cache::RestConfig rest;               ///< In frames.
     std::uint32_t batch_triangles = 128;  ///< At most; the fewer, the less is drawn to fill a strip.
+    raster::Cull cull = raster::Cull::none;  ///< Never of double-sided materials.
+    bool keeps_lists = true;                 ///< Off: whoever draws keeps lists of `draw`s for itself.
 };
 
 /// Objects are batches: those of instances that cannot move come first, then the others, in two kept lists.
@@ -40,6 +43,11 @@ class Casters {
     [[nodiscard]] cache::ObjectRecord const& record(std::size_t i) const noexcept { return records_[i]; }
     [[nodiscard]] math::Aabb const& box(std::size_t i) const noexcept { return batches_.boxes[i]; }
     [[nodiscard]] std::uint32_t triangles(std::size_t i) const noexcept { return batches_.batches[i].count; }
+    /// Whether some `draw` is another one since the last `follow`: an object moved, or is culled otherwise.
+    [[nodiscard]] bool redrawn() const noexcept { return redrawn_; }
+    [[nodiscard]] raster::Draw const& draw(std::size_t i) const noexcept {
+        return i < first_posed_ ? resting_.draws[i] : posed_.draws[i - first_posed_];
+    }
     [[nodiscard]] std::size_t first_posed() const noexcept { return first_posed_; }
     [[nodiscard]] backend::DrawListId resting_list() const noexcept { return resting_.kept.get(); }
     [[nodiscard]] backend::DrawListId posed_list() const noexcept { return posed_.kept.get(); }
@@ -63,6 +71,8 @@ class Casters {
     }
     void build(Frame const& frame, core::ExecutorRef executor);
     void build_draws(Frame const& frame);
+    void add_alpha_test(Frame const& frame, scene::Material const& material, Vertices const& own);
+    void keep(Verbs& verbs, bool all);
     bool move_posed(Frame const& frame, std::uint64_t now);
 
     std::shared_ptr<void const> identity_;  ///< Of the geometry; kept, so that no other has it.
@@ -75,8 +85,10 @@ class Casters {
     std::vector<std::uint32_t> revisions_;    ///< Of each instance, as they were seen last.
     std::vector<cache::ObjectRecord> records_;
     std::vector<raster::AlphaTest> alpha_tests_;
+    std::deque<raster::AlphaMap> alpha_maps_;  ///< Of those, one for each that differs.
     CasterConfig config_;
     std::size_t first_posed_ = 0;
+    bool redrawn_ = false;
     CasterList resting_, posed_;
 };
 

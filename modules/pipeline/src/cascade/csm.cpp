@@ -104,12 +104,6 @@ std::vector<StageTime> joined(std::span<StageTime const> stages) {
     return out;
 }
 
-void add_one(std::string_view name, std::vector<Count>& counts) {
-    auto const same = std::find_if(counts.begin(), counts.end(), [&](Count const& c) { return c.name == name; });
-    if (same == counts.end()) counts.push_back({name, 1});
-    else ++same->value;
-}
-
 constexpr std::array<std::string_view, cascade::max_cascades> triangles_of_map{
     "triangles_map_0", "triangles_map_1", "triangles_map_2", "triangles_map_3",
     "triangles_map_4", "triangles_map_5", "triangles_map_6", "triangles_map_7"};

@@ -1,4 +1,4 @@
-// What the measures ask of the technique `shadow-map`: whose triangles shadow a sample.
+// What the measures ask of techniques with maps of whole lights: whose triangles shadow a sample.
 
 #include "shadow_map.hpp"
 
@@ -37,10 +37,8 @@ void with_texels(NamedMap const& named, ShadowMapOptions const& options, Use&& u
 }
 
 /// Whether at least half of what blocks the sample is of its own surface, or its own plane faced away, judged in float.
-bool is_own(TechniqueRun const& on, NamedMap const& named, ShadowMapOptions const& options, std::size_t i) {
-    ShadowMaps const& shadow = on.workspace.state().shadow;
-    Samples const& samples = on.frame.samples;
-    shadow::MapView const& map = shadow.maps[named.map];
+bool is_own(Frame const& frame, shadow::MapView const& map, NamedMap const& named, ShadowMapOptions const& options, std::size_t i) {
+    Samples const& samples = frame.samples;
     shadow::Prepared const ready = shadow::prepare(map, samples.position[i], samples.normal[i], options.lookup);
     if (ready.faces_away) return true;
     float own = 0.0F;
@@ -49,7 +47,7 @@ bool is_own(TechniqueRun const& on, NamedMap const& named, ShadowMapOptions cons
         if (!blocked) return;
         std::uint32_t const id = named.id[static_cast<std::size_t>(y) * static_cast<std::size_t>(options.resolution) +
                                           static_cast<std::size_t>(x)];
-        bool const mine = id != backend::no_triangle && share_a_corner(*on.frame.geometry, id, samples.triangle[i]);
+        bool const mine = id != backend::no_triangle && share_a_corner(*frame.geometry, id, samples.triangle[i]);
         all += weight;
         own += mine ? weight : 0.0F;
     };
@@ -59,9 +57,8 @@ bool is_own(TechniqueRun const& on, NamedMap const& named, ShadowMapOptions cons
 }
 
 /// Draws a map once more, with ids, and reads both back.
-void name_map(Verbs& verbs, TechniqueRun const& on, backend::TargetId ids, ShadowMapOptions const& options,
-              NamedMap& named) {
-    ShadowMaps const& shadow = on.workspace.state().shadow;
+void name_map(Verbs& verbs, TechniqueRun const& on, ShadowMaps const& shadow, backend::TargetId ids, NamedMap& named) {
+    ShadowMapOptions const options = read_shadow_map_options(on.params);
     backend::PassLayer const layer = layer_of(on.frame, shadow, options, named.map);
     backend::Rect const whole{0, 0, options.resolution, options.resolution};
     verbs(on.device.draw(shadow.list.get(), ids, {&layer, 1}));
@@ -75,7 +72,7 @@ void name_map(Verbs& verbs, TechniqueRun const& on, backend::TargetId ids, Shado
 
 }  // namespace
 
-Result<core::Done> examine_shadow_map(TechniqueRun const& on, TechniqueOutput& output) {
+Result<core::Done> examine_maps(TechniqueRun const& on, ShadowMaps const& shadow, TechniqueOutput& output) {
     ShadowMapOptions const options = read_shadow_map_options(on.params);
     Frame const& frame = on.frame;
     std::size_t const n = frame.samples.size();
@@ -88,15 +85,15 @@ Result<core::Done> examine_shadow_map(TechniqueRun const& on, TechniqueOutput& o
     named.id.resize(map_texels(options));
     if (is_narrow(options)) named.unorm16.resize(map_texels(options));
     if (!is_narrow(options)) named.f32.resize(map_texels(options));
-    std::size_t const maps = on.workspace.state().shadow.maps.size();
+    std::size_t const maps = shadow.maps.size();
     for (named.map = 0; named.map < maps; ++named.map) {
-        name_map(verbs, on, ids.get(), options, named);
+        name_map(verbs, on, shadow, ids.get(), named);
         if (!verbs.good()) return verbs.failure();
         on.executor.parallel_for(n, sample_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (verdict_of(output.visibility[i], frame.lit[i]) != Verdict::false_shadow) continue;
                 if (map_of(frame.samples.position[i], frame.light_position, maps) != named.map) continue;
-                output.own_hit[i] = is_own(on, named, options, i) ? 1 : 0;
+                output.own_hit[i] = is_own(frame, shadow.maps[named.map], named, options, i) ? 1 : 0;
             }
         });
     }

@@ -1,0 +1,92 @@
+// The technique `shadow-map-cached`: the maps of `shadow-map`, of which the image of the static casters is kept.
+
+#include "cached_lights.hpp"
+#include "light_fit.hpp"
+#include "../workspace.hpp"
+#include "shadow_map_params.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::pipeline {
+
+namespace {
+
+constexpr std::array<ParamInfo, 2> own_params{{
+    {"rest", ParamKind::integer, "300", 0, 1e6, "frames", {}, "after so long without a move a caster counts as static"},
+    {"batch", ParamKind::integer, "128", 1, 65536, "triangles", {}, "what is drawn or left out together: at most so many triangles that lie close"},
+}};
+
+constexpr auto params_info = [] {
+    std::array<ParamInfo, shadow_map_params.size() + own_params.size()> all{};
+    std::copy(shadow_map_params.begin(), shadow_map_params.end(), all.begin());
+    std::copy(own_params.begin(), own_params.end(), all.begin() + shadow_map_params.size());
+    return all;
+}();
+
+void count(CachedLights const& lights, ShadowMapOptions const& options, std::size_t samples, TechniqueOutput& output) {
+    CachedWork const& work = lights.work();
+    std::uint64_t const texels = std::uint64_t{map_texels(options)} * lights.maps() * 2;
+    output.counts = {{"triangles_drawn", work.static_triangles + work.active_triangles},
+                     {"static_triangles", work.static_triangles},
+                     {"draw_calls", work.draw_calls},
+                     {"lighting_computations", samples},
+                     {"texels_allocated", texels},
+                     {"texels_rewritten", work.texels_copied + work.texels_cleared}};
+    output.bytes = {{"shadow_maps", texels * (is_narrow(options) ? 2U : 4U)}};
+    for (std::size_t m = 0; m < lights.maps(); ++m)
+        if (lights.reason(m) != cache::Reason::none) add_one(cache::name_of(lights.reason(m)), output.redraw_reasons);
+}
+
+Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
+    ShadowMapOptions const options = read_shadow_map_options(on.params);
+    std::size_t const n = on.frame.samples.size();
+    Workspace::State& state = on.workspace.state();
+    state.move_to(on.device);
+    CachedLightRuns& runs = state.cached_lights;
+    ShadowMaps& shadow = runs.shadow;
+    Verbs verbs(on.device);
+    state.samples.fit(verbs, on.frame);
+    fit_answers(verbs, shadow, n);
+    CasterConfig casters;
+    casters.rest.rest_ticks = static_cast<std::uint64_t>(on.params.integer("rest"));
+    casters.batch_triangles = static_cast<std::uint32_t>(on.params.integer("batch"));
+    runs.lights.follow(verbs, on.frame, options, casters, on.executor);
+    Stopwatch watch;
+    if (auto ok = fit_views(on.frame, shadow, options, runs.nearest(on.frame, on.executor)); !ok) return std::move(ok).failure();
+    double const fit_ms = watch.lap_ms();
+    auto const fresh = fit_target(verbs, shadow, options, 2);
+    if (!fresh) return std::move(fresh).failure();
+    (void)watch.lap_ms();
+    runs.lights.plan(verbs, shadow, {on.frame.light, options}, *fresh);
+    double const plan_ms = watch.lap_ms();
+    runs.lights.draw(verbs, shadow);
+    on.device.stage("lookup");
+    look_up_all(verbs, on, shadow, options);
+    on.device.stage("");
+    auto output = read_lookup(verbs, on, shadow);
+    if (!output) {
+        runs.lights.forget();
+        return output;
+    }
+    output->stages.insert(output->stages.begin(), {{"fit", fit_ms}, {"plan", plan_ms}});
+    count(runs.lights, options, n, *output);
+    return output;
+}
+
+Result<core::Done> examine(TechniqueRun const& on, TechniqueOutput& output) {
+    ShadowMaps& shadow = on.workspace.state().cached_lights.shadow;
+    Verbs verbs(on.device);
+    fit_draws(verbs, on.frame, shadow, read_shadow_map_options(on.params).cull);
+    if (!verbs.good()) return verbs.failure();
+    return examine_maps(on, shadow, output);
+}
+
+}  // namespace
+
+Technique shadow_map_cached_technique() noexcept {
+    return {"shadow-map-cached", "the same maps; the image of static casters is kept until one of them or the light changes", params_info,
+            &run_cached, &examine, false, true};
+}
+
+}  // namespace gnomon::pipeline

@@ -1,0 +1,32 @@
+#pragma once
+// The maps of one light on a backend, and what they are drawn and looked up with.
+
+#include <gnomon/backend/pass.hpp>
+#include <gnomon/math/view.hpp>
+#include <gnomon/shadow/map_view.hpp>
+
+#include "../detail.hpp"
+#include "../staged.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace gnomon::pipeline {
+
+/// The maps of one light.
+struct ShadowMaps {
+    DrawList draws;
+    std::shared_ptr<Surfaces const> drawn;  ///< What `draws` were made of.
+    raster::Cull cull = raster::Cull::none;
+    Held<backend::DrawListId> list;  ///< Of `draws`, which it may point into.
+    backend::TargetConfig config;
+    Held<backend::TargetId> target;  ///< Made by `config`; a layer for each map.
+    std::vector<math::View> views;
+    std::vector<shadow::MapView> maps;
+    std::vector<backend::PassLayer> layers;
+    StagedBuffer map_views;
+    StagedBuffer visibility;
+    StagedBuffer bias_m;
+};
+
+}  // namespace gnomon::pipeline
