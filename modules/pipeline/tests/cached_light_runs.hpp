@@ -9,7 +9,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -183,5 +185,49 @@ struct Course {
         }
     }
 };
+
+inline pipeline::Light bulb_among_cubes() { return pipeline::bulb(math::dvec3(0.1, 10.3, -0.1), 25.0F); }
+inline pipeline::Light spot_among_cubes() {
+    pipeline::Light light = bulb_among_cubes();
+    light.kind = pipeline::LightKind::spot;
+    light.direction = math::dvec3(0.3, -0.8, -0.4);
+    light.outer_cone_rad = 0.7F;
+    return light;
+}
+
+/// What a course came to.
+struct CourseEnd {
+    std::uint64_t frames = 0, wrong = 0, quiet_draws = 0, plain = 0, kept = 0;
+    std::map<std::string, std::uint64_t> reasons;
+};
+
+/// Runs both techniques along a course and compares all that they give.
+inline CourseEnd run(Course& course, backend::Backend& device, std::size_t frames, bool forgets_to_clear = false) {
+    MapRunner plain(device, "shadow-map"), cached(device, "shadow-map-cached");
+    CourseEnd seen;
+    std::size_t still = 0;
+    for (std::size_t i = 0; i < frames; ++i) {
+        if (i > 0) course.step();
+        pipeline::Frame const frame = course.cubes.frame(course.light);
+        auto const anew = plain(frame, course.settings);
+        auto with_rest = course.settings;
+        with_rest.push_back({"rest", "3"});
+        cached.device.forgets_to_clear = forgets_to_clear && i > 0;
+        auto const kept = cached(frame, with_rest);
+        bool const same = cached.device.texels == plain.device.texels && kept.visibility == anew.visibility && kept.bias_m == anew.bias_m;
+        seen.wrong += same ? 0U : 1U;
+        ++seen.frames;
+        still = course.quiet && i > 0 ? still + 1 : 0;
+        if (still > 3) seen.quiet_draws += count_in(kept.counts, "triangles_drawn") + count_in(kept.counts, "texels_rewritten");
+        seen.plain += count_in(anew.counts, "triangles_drawn");
+        seen.kept += count_in(kept.counts, "triangles_drawn");
+        for (pipeline::Count const& reason : kept.redraw_reasons) seen.reasons[std::string(reason.name)] += reason.value;
+    }
+    std::printf("%llu frames, %llu wrong; triangles %llu of %llu;", static_cast<unsigned long long>(seen.frames), static_cast<unsigned long long>(seen.wrong),
+                static_cast<unsigned long long>(seen.kept), static_cast<unsigned long long>(seen.plain));
+    for (auto const& [name, count] : seen.reasons) std::printf(" %s %llu", name.c_str(), static_cast<unsigned long long>(count));
+    std::printf("\n");
+    return seen;
+}
 
 }  // namespace gnomon::test
