@@ -70,6 +70,7 @@ struct Town {
     scene::Pose pose;
     scene::CameraPath path;
     core::SerialExecutor executor;
+    bool truth = false;
 
     Town(std::string const& name, double moving) {
         scene::ProceduralConfig config;
@@ -84,7 +85,7 @@ struct Town {
         scene::pose_at(scene, {static_cast<double>(i) / path.rate_hz}, pose);
         scene::update(geometry, scene, pose);
         math::View const view = scene::make_view(path.frames[i], math::ivec2(96, 54)).value();
-        return pipeline::make_frame(scene, geometry, {.view = view, .light = scene.lights.front(), .truth = false}, executor).value();
+        return pipeline::make_frame(scene, geometry, {.view = view, .light = scene.lights.front(), .truth = truth}, executor).value();
     }
 };
 

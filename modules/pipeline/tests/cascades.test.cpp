@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -72,7 +75,64 @@ struct Cell {
     }
 };
 
+/// Whatever was kept, each frame's samples are as wrong as with maps drawn anew.
+struct Wrongness {
+    std::array<pipeline::Workspace, 3> workspaces;
+    std::uint64_t samples = 0;
+    std::uint64_t wrong = 0;
+
+    void measure(pipeline::Frame const& frame) {
+        std::vector<pipeline::RunRequest> requests;
+        for (std::size_t i = 0; i < 3; ++i) {
+            auto const* const technique = pipeline::find_technique(std::array{"csm", "csm-cached", "csm-scroll"}[i]).value();
+            requests.push_back({technique, pipeline::make_params(*technique).value(), &workspaces[i]});
+        }
+        core::SerialExecutor executor;
+        pipeline::CompareConfig config;
+        config.images = false;
+        auto const compared = pipeline::compare(frame, requests, config, executor).value();
+        pipeline::Measures const& anew = compared.runs[0].error;
+        samples += anew.samples;
+        wrong += anew.wrong;
+        for (std::size_t i = 1; i < 3; ++i) {
+            pipeline::Measures const& kept = compared.runs[i].error;
+            CHECK(kept.wrong_fraction == anew.wrong_fraction);
+            CHECK((kept.false_lit == anew.false_lit && kept.false_shadow == anew.false_shadow && kept.acne == anew.acne));
+            CHECK(kept.edge_px.mean == anew.edge_px.mean);
+        }
+    }
+};
+
 }  // namespace
+
+TEST_CASE("maps that scroll are wrong where maps drawn anew are, and nowhere else, in every frame of a path", "[pipeline][cascade]") {
+    scene::Scene const city = scene::make_procedural({"city", 52'000}).value();
+    scene::Geometry const geometry = scene::flatten(city);
+    core::SerialExecutor executor;
+    Wrongness wrongness;
+    std::optional<pipeline::Frame> before;
+    for (int i = 0; i < 8; ++i) {
+        scene::Camera const& street = *std::find_if(city.cameras.begin(), city.cameras.end(), [](scene::Camera const& c) { return c.name == "street"; });
+        math::View view = scene::make_view(street, math::ivec2(128, 72)).value();
+        view.eye_m += -view.back * (0.5 * i);
+        view = math::looking_along(view, math::dvec3(std::sin(0.12 * i), 0.0, 0.0) - view.back, {0.0, 1.0, 0.0});
+        before = pipeline::make_frame(city, geometry, {.view = view, .light = pipeline::sun(math::dvec3(-0.45, -0.8, -0.4)), .before = before ? &*before : nullptr}, executor).value();
+        wrongness.measure(*before);
+    }
+    std::printf("city, 8 frames: %llu of %llu samples wrong, by csm-scroll, csm-cached and csm alike\n", static_cast<unsigned long long>(wrongness.wrong),
+                static_cast<unsigned long long>(wrongness.samples));
+    CHECK(wrongness.samples > 30'000);
+    CHECK(wrongness.wrong > 100);
+}
+
+TEST_CASE("maps that scroll are as wrong as those drawn anew along all of town's street with cars about", "[pipeline][cascade][.full]") {
+    Town town("street", 10);
+    town.truth = true;
+    Wrongness wrongness;
+    for (std::size_t i = 0; i < 150; ++i) wrongness.measure(town.frame(i));
+    std::printf("town street, 10 %% moving, 150 frames: %llu of %llu samples wrong, alike\n", static_cast<unsigned long long>(wrongness.wrong),
+                static_cast<unsigned long long>(wrongness.samples));
+}
 
 TEST_CASE("the picture of maps that scroll shows in red what was drawn, and asking for it changes no result", "[pipeline][cascade]") {
     Town town("spin", 0);
