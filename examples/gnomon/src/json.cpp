@@ -93,6 +93,7 @@ Json run_json(Report const& report, Run const& run) {
             {"counts", counts_json(run.result.counts)},
             {"bytes", counts_json(run.result.bytes)}};
     if (!run.result.redraw_reasons.empty()) json["redraw_reasons"] = counts_json(run.result.redraw_reasons);
+    for (double const texel_m : run.result.map_texel_m) json["map_texel_m"].push_back(number(texel_m));
     for (FrameRecord const& frame : run.frames) json["frames"].push_back(frame_json(report, frame));
     return json;
 }

@@ -106,6 +106,7 @@ pipeline::RunReport total_of(std::vector<FrameRecord> const& frames, pipeline::R
     total.backend = first.backend;
     total.params = first.params;
     total.bytes = first.bytes;
+    total.map_texel_m = first.map_texel_m;
     total.measured = first.measured;
     std::vector<double> ms;
     for (FrameRecord const& frame : frames) {

@@ -199,6 +199,10 @@ TEST_CASE("with --debug, techniques that keep maps show them: files, a film, the
     CHECK(contains(read_text(folder / "film" / "index.html"), "How they got there"));
     CHECK(contains(read_text(folder / "film" / "results.json"), "csm-scroll-resolution-64.tint.webp"));
     CHECK(first_error(flight_results(folder / "film")) == "");
+    json const runs = flight_results(folder / "film")["runs"];
+    CHECK_FALSE(runs[0].contains("map_texel_m"));
+    REQUIRE(runs[1]["map_texel_m"].size() == 4);
+    CHECK(runs[1]["map_texel_m"][0] < runs[1]["map_texel_m"][3]);
     with({"compare"}, {"--repeats", "1", "--out", "page"});
     CHECK(fs::exists(folder / "page" / "csm-scroll-resolution-64.maps.png"));
     CHECK_FALSE(fs::exists(folder / "page" / "shadow-map.maps.png"));

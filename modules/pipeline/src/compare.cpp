@@ -36,6 +36,7 @@ Result<RunReport> run_one(Frame const& frame, RunRequest const& request, Compare
     report.counts = output.counts;
     report.bytes = output.bytes;
     report.redraw_reasons = output.redraw_reasons;
+    report.map_texel_m = output.map_texel_m;
     if (config.images) report.lit = picture(frame, shading, output.visibility);
     report.pictures = std::move(output.pictures);
     if (!output.tint.empty())

@@ -129,8 +129,10 @@ void count(CascadeShadows const& shadows, CascadeOptions const& options, std::si
                      {"lighting_computations", samples},
                      {"texels_allocated", texels},
                      {"texels_rewritten", all.texels_scrolled + all.texels_copied + all.texels_cleared}};
-    for (std::size_t k = 0; k < shadows.work().size(); ++k)
+    for (std::size_t k = 0; k < shadows.work().size(); ++k) {
         output.counts.push_back({triangles_of_map[k], shadows.work()[k].triangles});
+        output.map_texel_m.push_back(shadows.frame().cascades[k].volume.texel_m);
+    }
     output.bytes = {{"shadow_maps", texels * (options.format == backend::DepthFormat::unorm16 ? 2U : 4U)}};
 }
 

@@ -35,6 +35,7 @@ struct RunReport {
     std::vector<Count> counts;
     std::vector<Count> bytes;
     std::vector<Count> redraw_reasons;
+    std::vector<double> map_texel_m;
     Image lit;      ///< The picture with this technique's shadows.
     Image overlay;  ///< Wrong samples in two colours, empty without truth; of a lighting technique its `heat_map`.
     std::vector<DebugPicture> pictures;  ///< If they were asked for; "tint" is the picture in the technique's colours.

@@ -79,6 +79,7 @@ struct TechniqueOutput {
     std::vector<Count> counts;          ///< By the names of design section 10.
     std::vector<Count> bytes;
     std::vector<Count> redraw_reasons;  ///< Of techniques that keep maps: why each was drawn to, of a part of it too.
+    std::vector<double> map_texel_m;     ///< Of cascades: the side of a texel of each map.
     std::vector<DebugPicture> pictures;  ///< If they were asked for, and the technique has any.
     /// Likewise: a colour for each sample, linear RGB, such as that of the map it looks into; or empty.
     std::vector<math::vec3> tint;
