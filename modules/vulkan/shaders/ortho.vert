@@ -14,6 +14,7 @@ layout(set = 0, binding = 6, std430) readonly buffer Positions { float positions
 layout(set = 0, binding = 7, std430) readonly buffer Indices { uint indices[]; };
 
 layout(constant_id = 0) const bool is_masked = false;
+layout(constant_id = 1) const uint part = all_triangles;
 
 // Doubles in pairs, as every device can pass them on.
 layout(location = 0) flat out uvec4 xy_0;
@@ -56,7 +57,26 @@ double area_of(dvec3 corner[3], bool is_far) {
 const vec4 nowhere = vec4(2.0, 2.0, 0.5, 1.0);
 
 /// A place in clip space, from units of the image.
-vec4 place(vec2 from_centre) { return vec4(from_centre * push.per_unit, 0.5, 1.0); }
+vec4 place(vec2 from_centre, float depth) { return vec4(from_centre * push.per_unit, depth, 1.0); }
+
+/// The depth that the device is to interpolate, from units above the nearest code.
+float depth_of(double units) {
+    double last = lights[push.light].origin_m.w * 256.0LF;
+    return float(((push.flags & is_reversed) != 0u ? last - units : units) / last);
+}
+
+/// Whether depths that a device interpolates in float are a sixteenth of a code off at most. With e = 2^-24 it has
+/// corners of 2^17 codes to e, slopes to some 8 e (1 + 2 q) of `steep`, q being the square of the triangle's size over
+/// its area, and sums their products with how far pixels are from the image's corner and from the triangle's.
+bool is_gentle(dvec3 corner[3], double size, double area) {
+    double low = min(min(corner[0].z, corner[1].z), corner[2].z);
+    double high = max(max(corner[0].z, corner[1].z), corner[2].z);
+    dvec2 from = max(max(abs(corner[0].xy), abs(corner[1].xy)), abs(corner[2].xy));
+    double steep = (high - low) * size;  // over the area: codes a texel
+    double reach = max(from.x, from.y) + size;
+    return max(abs(low), abs(high)) <= 33554432.0LF && steep * reach <= gentle_units * area &&
+           steep * size * (area + 2.0LF * size * size) <= gentle_units * area * area;
+}
 
 /// The pixels whose centres the bounds hold, in the area.
 ivec4 pixels_of(dvec2 low, dvec2 high) {
@@ -73,7 +93,7 @@ vec4 cover(ivec4 pixels, uint k) {
     vec2 size = vec2(pixels.zw - pixels.xy) + 5.0;
     if (k == 1u) at.x += 2.0 * size.x;
     if (k == 2u) at.y += 2.0 * size.y;
-    return place(at * 256.0);
+    return place(at * 256.0, 0.5);
 }
 
 vec4 place_of(dvec3 corner[3], dvec2 size, uint k, ivec4 pixels, out uint kind) {
@@ -81,7 +101,7 @@ vec4 place_of(dvec3 corner[3], dvec2 size, uint k, ivec4 pixels, out uint kind) 
     dvec2 out_most = max(max(abs(corner[0].xy - middle), abs(corner[1].xy - middle)), abs(corner[2].xy - middle));
     bool is_near = max(out_most.x, out_most.y) <= double(push.most_units) && max(size.x, size.y) <= double(push.most_size);
     kind = is_near ? by_device : by_cover;
-    if (is_near) return place(vec2(corner[k].xy - middle));
+    if (is_near) return place(vec2(corner[k].xy - middle), part == gentle_triangles ? depth_of(corner[k].z) : 0.5);
     return cover(pixels, k);
 }
 
@@ -110,6 +130,10 @@ void main() {
 
     uint kind;
     gl_Position = place_of(corner, size, k, pixels, kind);
+    if (part != all_triangles) {
+        bool gentle = kind == by_device && is_gentle(corner, max(size.x, size.y), abs(area));
+        if (gentle != (part == gentle_triangles)) gl_Position = nowhere;
+    }
     kind_and_item = uvec2(is_far ? by_far_cover : kind, item_at);
     // Turned so that the area is positive.
     bool turned = area < 0.0LF;

@@ -32,3 +32,9 @@ const uint clips_range = 2u;
 const uint by_device = 0u;
 const uint by_cover = 1u;      // A triangle about its bounds; which samples it covers is tested.
 const uint by_far_cover = 2u;  // The same in 128 bits.
+
+// Which triangles a call draws.
+const uint all_triangles = 0u;
+const uint gentle_triangles = 1u;  // Those whose depths the device interpolates.
+const uint other_triangles = 2u;   // The rest, exactly.
+const double gentle_units = 8388608.0LF;  // 2^15 codes, of which 8 e are 2^-6

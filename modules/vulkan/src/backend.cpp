@@ -9,11 +9,14 @@ namespace gnomon::vulkan {
 Backend::Backend(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 Backend::~Backend() = default;
 
-backend::Result<std::unique_ptr<Backend>> Backend::make(GpuRef gpu, Host const& host) {
+backend::Result<std::unique_ptr<Backend>> Backend::make(GpuRef gpu, Host const& host,
+                                                         OrthoPipelinesConfig const& ortho) {
     if (gpu == nullptr || host.begin == nullptr || host.submit_and_wait == nullptr)
         return core::Failure{backend::Error::bad_argument,
                              "vulkan::Backend: it needs a device and both functions of the host"};
-    return std::unique_ptr<Backend>(new Backend(std::make_unique<State>(std::move(gpu), host)));
+    auto state = std::make_unique<State>(std::move(gpu), host);
+    state->ortho_config = ortho;
+    return std::unique_ptr<Backend>(new Backend(std::move(state)));
 }
 
 std::uint64_t Backend::barriers() const noexcept { return state_->order.barriers(); }

@@ -153,7 +153,7 @@ Result<OrthoPipelines*> Backend::State::ortho() {
     if (ortho_pipelines) return &*ortho_pipelines;
     auto shared = passes();
     if (!shared) return std::move(shared).failure();
-    auto made = OrthoPipelines::make(*shared);
+    auto made = OrthoPipelines::make(*shared, ortho_config);
     if (!made) return std::move(made).failure();
     ortho_pipelines.emplace(*std::move(made));
     return &*ortho_pipelines;

@@ -109,6 +109,7 @@ struct Backend::State {
 
     PassPipelinesRef pass_pipelines;
     std::optional<SampleQueries> queries;
+    OrthoPipelinesConfig ortho_config;
     std::optional<OrthoPipelines> ortho_pipelines;
     backend::Slots<backend::DrawListId, DrawList> lists;
     backend::Slots<backend::TargetId, Target> targets;

@@ -42,10 +42,18 @@ class OrthoRecorder {
     OrthoRecorder(VkCommandBuffer commands, OrthoPipelines const& pipelines, DrawList::State& list, Target& target)
         : commands_(commands), pipelines_(pipelines), gpu_(*pipelines.passes()->gpu()), list_(list), target_(target) {}
 
-    /// The pipelines of solid and masked draws.
-    void set(VkPipeline solid, VkPipeline masked) noexcept {
-        solid_ = solid;
-        masked_ = masked;
+    /// The pipelines that the layers will need, made where they are not.
+    Result<core::Done> make_pipelines(OrthoPipelines& pipelines, bool any_masked) {
+        bool const by_device = pipelines.codes_by_device() && !is_float();
+        for (std::uint32_t const part : {detail::all_triangles, detail::gentle_triangles, detail::other_triangles}) {
+            if (part != detail::all_triangles && !by_device) continue;
+            auto const solid = pipelines.get(target_.config().depth, false, part);
+            if (!solid) return solid.failure();
+            auto const masked = any_masked ? pipelines.get(target_.config().depth, true, part) : solid;
+            if (!masked) return masked.failure();
+            made_[part] = {*solid, *masked};
+        }
+        return core::Done{};
     }
 
     backend::PassCounts record(std::span<OrthoLayer const> layers) {
@@ -61,6 +69,12 @@ class OrthoRecorder {
     }
 
   private:
+    /// Of solid and of masked draws.
+    struct Pair {
+        VkPipeline solid = VK_NULL_HANDLE;
+        VkPipeline masked = VK_NULL_HANDLE;
+    };
+
     [[nodiscard]] bool is_float() const noexcept { return target_.config().depth == backend::DepthFormat::f32; }
 
     /// Null for a draw without triangles.
@@ -96,7 +110,10 @@ class OrthoRecorder {
         rendering.size_px = target_.config().size_px;
         detail::begin_rendering(gpu_, commands_, rendering);
         set_area(layer, area);
-        draw(layer, push_of(layer, area, light));
+        bool const by_device = made_[detail::gentle_triangles].solid != VK_NULL_HANDLE && layer.range == backend::DepthRange::clamp;
+        detail::OrthoPush const push = push_of(layer, area, light);
+        if (by_device) draw(layer, push, made_[detail::gentle_triangles]);
+        draw(layer, push, made_[by_device ? detail::other_triangles : detail::all_triangles]);
         gpu_.call.CmdEndRendering(commands_);
     }
 
@@ -133,13 +150,13 @@ class OrthoRecorder {
         return push;
     }
 
-    void draw(OrthoLayer const& layer, detail::OrthoPush push) {
+    void draw(OrthoLayer const& layer, detail::OrthoPush push, Pair const& pipelines) {
         VkPipeline bound = VK_NULL_HANDLE;
         bool is_first = true;
         backend::for_each_draw(layer, list_.command_of.size(), [&](std::size_t i) {
             if (command_of(i) == nullptr) return;
             DrawCommand const& c = *command_of(i);
-            VkPipeline const pipeline = c.state.masked ? masked_ : solid_;
+            VkPipeline const pipeline = c.state.masked ? pipelines.masked : pipelines.solid;
             if (pipeline != bound) gpu_.call.CmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
             bound = pipeline;
             auto const cull = static_cast<std::uint32_t>(c.state.cull);
@@ -158,8 +175,7 @@ class OrthoRecorder {
     Gpu const& gpu_;
     DrawList::State& list_;
     Target& target_;
-    VkPipeline solid_ = VK_NULL_HANDLE;
-    VkPipeline masked_ = VK_NULL_HANDLE;
+    std::array<Pair, 3> made_;  ///< By OrthoPart.
     backend::PassCounts counts_;
 };
 
@@ -174,11 +190,7 @@ bool is_masked(DrawList::State const& list) noexcept {
 Result<backend::PassCounts> record_ortho(VkCommandBuffer commands, OrthoPipelines& pipelines, DrawList& draws, Target& target,
                                          std::span<backend::OrthoLayer const> layers) {
     OrthoRecorder recorder(commands, pipelines, draws.state(), target);
-    auto const solid = pipelines.get(target.config().depth, false);
-    if (!solid) return solid.failure();
-    auto const masked = is_masked(draws.state()) ? pipelines.get(target.config().depth, true) : solid;
-    if (!masked) return masked.failure();
-    recorder.set(*solid, *masked);
+    if (auto ok = recorder.make_pipelines(pipelines, is_masked(draws.state())); !ok) return std::move(ok).failure();
     return recorder.record(layers);
 }
 

@@ -25,6 +25,13 @@ enum OrthoFlag : std::uint32_t {
     clips_range = 2,
 };
 
+/// Which triangles a pipeline draws: constant 1 of shaders/ortho.vert.
+enum OrthoPart : std::uint32_t {
+    all_triangles,
+    gentle_triangles,  ///< Those whose depths the device interpolates.
+    other_triangles,
+};
+
 struct OrthoPush {
     std::int32_t area_px[4] = {0, 0, 0, 0};
     std::int32_t centre_px[2] = {0, 0};

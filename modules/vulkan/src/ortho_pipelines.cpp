@@ -5,6 +5,7 @@
 #include "kernel_bindings.hpp"
 #include "ortho_layout.hpp"
 
+#include "shaders/ortho_alpha_frag.hpp"
 #include "shaders/ortho_frag.hpp"
 #include "shaders/ortho_vert.hpp"
 
@@ -41,27 +42,31 @@ Result<OrthoPipelines> OrthoPipelines::make(PassPipelinesRef const& passes, Orth
     made.layout_ = *std::move(layout);
     made.reach_px_ = reach_of(gpu->properties.limits);
     made.edges_by_device_ = config.edges_by_device && gpu->properties.limits.subPixelPrecisionBits >= 8;
+    made.codes_by_device_ = config.codes_by_device && made.edges_by_device_ && gpu->features.depth_clamp;
     return made;
 }
 
-Result<VkPipeline> OrthoPipelines::get(backend::DepthFormat format, bool masked) {
+Result<VkPipeline> OrthoPipelines::get(backend::DepthFormat format, bool masked, std::uint32_t part) {
     bool const is_float = format == backend::DepthFormat::f32;
-    UniquePipeline& kept = pipelines_[(is_float ? 2U : 0U) + (masked ? 1U : 0U)];
+    UniquePipeline& kept = pipelines_[part * 4 + (is_float ? 2U : 0U) + (masked ? 1U : 0U)];
     if (kept) return kept.get();
     GpuRef const& gpu = passes_->gpu();
+    bool const by_device = part == detail::gentle_triangles;
     auto const vertex = make_shader(gpu, ortho_vert, "ortho.vert");
     if (!vertex) return vertex.failure();
-    auto const fragment = make_shader(gpu, ortho_frag, "ortho.frag");
+    auto const fragment = by_device ? make_shader(gpu, ortho_alpha_frag, "ortho_alpha.frag") : make_shader(gpu, ortho_frag, "ortho.frag");
     if (!fragment) return fragment.failure();
     detail::GraphicsPipeline build;
     build.name = "ortho.vert";
     build.layout = layout_.get();
     build.cache = cache_;
     build.vertex = vertex->get();
-    build.fragment = fragment->get();
+    build.fragment = by_device && !masked ? VK_NULL_HANDLE : fragment->get();
     build.has_positions = false;
+    build.depth_clamp = by_device;
     build.depth_format = is_float ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_D16_UNORM;
     build.constants[0] = masked ? VK_TRUE : VK_FALSE;
+    build.constants[1] = part;
     auto made = detail::make_graphics_pipeline(gpu, build);
     if (!made) return std::move(made).failure();
     kept = *std::move(made);

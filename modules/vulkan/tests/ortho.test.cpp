@@ -108,8 +108,8 @@ TEST_CASE("integer passes are the CPU's where the fragment shader finds what is 
 
 namespace {
 
-/// A soup in the middle of a plain view's image and depths, without steep triangles.
-Soup ortho_soup(Random& random, OrthoView const& view, int count) {
+/// A soup in the middle of a plain view's image and depths; corners are up to so much of all codes from their triangle's.
+Soup ortho_soup(Random& random, OrthoView const& view, int count, double most_dz = 0.03) {
     Soup soup;
     for (int i = 0; i < count; ++i) {
         auto const at = [&](double low, double high) { return low + (high - low) * static_cast<double>(random.in(0.0F, 1.0F)); };
@@ -119,7 +119,7 @@ Soup ortho_soup(Random& random, OrthoView const& view, int count) {
         for (int k = 0; k < 3; ++k) {
             double const dx = at(-30.0, 30.0);
             double const dy = at(-30.0, 30.0);
-            double const dz = at(-0.03, 0.03) * view.last_code;
+            double const dz = at(-most_dz, most_dz) * view.last_code;
             soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
             soup.positions.push_back(view.position(x + dx, y + dy, code + dz));
         }
@@ -145,6 +145,55 @@ std::uint64_t not_moved(std::span<float const> from, std::span<float const> to, 
 }
 
 }  // namespace
+
+namespace {
+
+/// Soups from gentle to steep, whose codes the device finds where it can, beside the CPU's.
+OrthoDifference compare_soups(OrthoRig& rig, std::uint64_t seed, int soups) {
+    OrthoDifference sum;
+    for (int i = 0; i < soups; ++i) {
+        Random random{seed + static_cast<std::uint64_t>(i)};
+        backend::TargetConfig const config{.size_px = {96, 80}, .layers = 1, .depth = backend::DepthFormat::unorm16};
+        OrthoView view = random_view(random, config, i % 3 == 0 ? 1e4 : 0.0, i % 2 == 0);
+        view.layer.depth = i % 4 < 2 ? math::Depth::forward : math::Depth::reversed;
+        view.layer.range = backend::DepthRange::clamp;
+        constexpr double most_dz[] = {0.0001, 0.001, 0.003, 0.03};
+        OrthoScene scene;
+        for (double const dz : most_dz) scene.soups.push_back(ortho_soup(random, view, 12, dz));
+        add_triangle(scene.soups.back(), random, view, random.next() % ortho_kinds);
+        for (Soup const& soup : scene.soups) scene.draws.push_back(soup.draw());
+        scene.draws[1].alpha_test = add_alpha_test(scene, random, scene.soups[1]);
+        OrthoPasses const passes{{view.layer}};
+        auto const cpu = draw_ortho_on_cpu(scene.draws, config, passes);
+        sum += ortho_difference(cpu, rig.draw(scene.draws, config, passes), view.layer.depth == math::Depth::forward ? 65535.0F : 0.0F);
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("codes that the device interpolates are at most one from the CPU's", "[vulkan][ortho]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    OrthoRig rig(*device, {.codes_by_device = true});
+    REQUIRE(rig.pipelines().codes_by_device());
+    OrthoDifference const d = compare_soups(rig, 300, 24);
+    std::printf("ortho, codes by the device: %s, by %.0f at most\n", d.text().c_str(), static_cast<double>(d.most));
+    CHECK(d.most == 1.0F);
+    CHECK(d.differing < d.written / 200);
+    CHECK(d.written > d.texels / 10);
+    CHECK(device->take_messages() == "");
+}
+
+TEST_CASE("codes that the device interpolates are at most one from the CPU's in many soups", "[vulkan][ortho][.full]") {
+    auto const device = Device::make();
+    REQUIRE(device != nullptr);
+    OrthoRig rig(*device, {.codes_by_device = true});
+    OrthoDifference const d = compare_soups(rig, 10'000, 2'000);
+    std::printf("ortho, codes by the device, many soups: %s, by %.0f at most\n", d.text().c_str(), static_cast<double>(d.most));
+    CHECK(d.most == 1.0F);
+    CHECK(device->take_messages() == "");
+}
 
 TEST_CASE("on the device a view moved by whole units shows the moved image", "[vulkan][ortho]") {
     auto const device = Device::make();

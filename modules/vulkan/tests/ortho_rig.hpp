@@ -39,11 +39,13 @@ struct OrthoDifference {
     std::uint64_t texels = 0;
     std::uint64_t written = 0;  ///< Not the farthest.
     std::uint64_t differing = 0;
+    float most = 0.0F;  ///< How far two are apart.
 
     OrthoDifference& operator+=(OrthoDifference const& other) {
         texels += other.texels;
         written += other.written;
         differing += other.differing;
+        most = other.most > most ? other.most : most;
         return *this;
     }
     [[nodiscard]] std::string text() const {

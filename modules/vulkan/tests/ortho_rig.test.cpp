@@ -88,6 +88,7 @@ OrthoDifference ortho_difference(std::span<float const> cpu, std::span<float con
     REQUIRE(cpu.size() == gpu.size());
     d.texels = cpu.size();
     for (std::size_t i = 0; i < cpu.size(); ++i) {
+        d.most = std::max(d.most, std::abs(cpu[i] - gpu[i]));
         d.written += cpu[i] != farthest ? 1U : 0U;
         d.differing += cpu[i] == gpu[i] ? 0U : 1U;
     }

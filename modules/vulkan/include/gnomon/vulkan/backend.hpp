@@ -5,6 +5,7 @@
 #include <gnomon/math/bounds.hpp>
 #include <gnomon/vulkan/draws.hpp>
 #include <gnomon/vulkan/gpu.hpp>
+#include <gnomon/vulkan/ortho.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +35,8 @@ struct Host {
 class Backend final : public backend::Backend {
   public:
     /// expects: the device, the host's context and the kernels that are run outlive the backend.
-    [[nodiscard]] static backend::Result<std::unique_ptr<Backend>> make(GpuRef gpu, Host const& host);
+    [[nodiscard]] static backend::Result<std::unique_ptr<Backend>> make(GpuRef gpu, Host const& host,
+                                                                       OrthoPipelinesConfig const& ortho = {});
     /// What was recorded and not finished is dropped: the host must not submit it.
     ~Backend() override;
 

@@ -19,6 +19,11 @@ struct OrthoPipelinesConfig {
     /// within `reach_px` of the image's middle. Else the fragment shader finds all: slower, for a device whose edges are
     /// not exact to 1/256 pixel. Not heeded where the device says that its are coarser.
     bool edges_by_device = true;
+    /// Whether the device interpolates the depths of triangles that are gentle enough for its floats to be a sixteenth of a
+    /// code off at most: without a fragment shader, but each corner is found twice; codes may be one apart from the CPU's.
+    /// Coverage and alpha tests are exact, and steep triangles too. Heeded with 16 bits and `DepthRange::clamp`, on
+    /// devices that clamp depth and find edges.
+    bool codes_by_device = false;
     VkPipelineCache cache = VK_NULL_HANDLE;  ///< The caller's, if there is one.
 };
 
@@ -32,27 +37,31 @@ class OrthoPipelines {
 
     [[nodiscard]] PassPipelinesRef const& passes() const noexcept { return passes_; }
     [[nodiscard]] VkPipelineLayout layout() const noexcept { return layout_.get(); }
-    [[nodiscard]] Result<VkPipeline> get(backend::DepthFormat format, bool masked);
+    /// `part` 0: for all triangles, exact. 1: for the gentle ones, by the device. 2: for the others, exact.
+    [[nodiscard]] Result<VkPipeline> get(backend::DepthFormat format, bool masked, std::uint32_t part = 0);
 
     /// Half of what lavapipe 22.3 draws without a wrong sample: from 4096 pixels on its edge functions overflow.
     static constexpr std::int32_t device_size_px = 2048;
     /// Half the side of the viewport: a power of two, at most 8192.
     [[nodiscard]] std::int32_t reach_px() const noexcept { return reach_px_; }
     [[nodiscard]] bool edges_by_device() const noexcept { return edges_by_device_; }
+    [[nodiscard]] bool codes_by_device() const noexcept { return codes_by_device_; }
 
   private:
     PassPipelinesRef passes_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
     UniquePipelineLayout layout_;
-    std::array<UniquePipeline, 4> pipelines_;
+    std::array<UniquePipeline, 12> pipelines_;
     std::int32_t reach_px_ = 0;
     bool edges_by_device_ = false;
+    bool codes_by_device_ = false;
 };
 
 /// Records the layers of a pass into `target`, one rendering each; see `record_pass` for the rest.
 ///
 /// expects: `backend::check_layers` has passed; `draws` uploaded, and made with the pipelines' `passes()`.
-/// returns: what was asked for and the calls recorded, one for each draw of each layer; or what the driver said of a new
+/// returns: what was asked for and the calls recorded, one for each draw of each layer, two
+///          where codes are the device's; or what the driver said of a new
 ///          pipeline: then nothing was recorded.
 /// cost:    no allocation. A vertex shader of some 300 operations in double a corner, a fragment shader of some 30; a
 ///          triangle that is not the device's own has a fragment for each texel of its bounds, and about as many more.
