@@ -130,6 +130,7 @@ struct Course {
     std::vector<pipeline::Setting> settings;
     std::mt19937 random{1};
     bool changes_light = true;
+    bool changes_drawing = true;
     bool quiet = false;  ///< Nothing at all happened in the last step.
 
     Course(LooseCubes& of, pipeline::Light const& under, std::vector<pipeline::Setting> const& with) : cubes(of), light(under), settings(with) {}
@@ -148,7 +149,7 @@ struct Course {
         std::uint32_t const events = below(4) == 0 ? 0 : below(4);
         for (std::uint32_t e = 0; e < events; ++e) move_cube();
         if (changes_light && below(5) == 0) change_light();
-        if (changes_light && below(16) == 0) change_drawing();
+        if (changes_light && changes_drawing && below(16) == 0) change_drawing();
     }
 
   private:

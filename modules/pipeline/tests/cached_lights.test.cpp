@@ -4,7 +4,10 @@
 
 #include <gnomon/raster/cpu_backend.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <string>
 
@@ -59,6 +62,76 @@ TEST_CASE("a map that is not drawn anew when it must be is found out", "[pipelin
     LooseCubes cubes(9);
     Course course(cubes, bulb_among_cubes(), small_maps());
     CHECK(run(course, 30, true).wrong > 0);
+}
+
+TEST_CASE("under a budget maps wait, none too long, and all are right soon after the world comes to rest", "[pipeline][cached]") {
+    constexpr std::uint64_t budget = 2500, wait = 6;
+    LooseCubes cubes(9);
+    Course course(cubes, bulb_among_cubes(), small_maps());
+    course.changes_drawing = false;
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    test::MapRunner plain(cpu, "shadow-map"), cached(cpu, "shadow-map-cached");
+    auto settings = small_maps();
+    settings.insert(settings.end(), {{"rest", "3"}, {"budget", std::to_string(budget)}, {"wait", std::to_string(wait)}});
+    std::array<std::uint64_t, 6> stale{};
+    std::uint64_t most_wrong = 0, longest = 0, postponed = 0, over = 0;
+    for (std::size_t i = 0; i < 120; ++i) {
+        if (i > 0 && i < 100) course.step();
+        pipeline::Frame const frame = cubes.frame(course.light);
+        (void)plain(frame, small_maps());
+        auto const kept = cached(frame, settings);
+        std::size_t const each = plain.device.texels.size() / 6;
+        std::uint64_t wrong = 0;
+        for (std::size_t m = 0; m < 6; ++m) {
+            bool const same = std::memcmp(&plain.device.texels[m * each], &cached.device.texels[m * each], each) == 0;
+            stale[m] = same ? 0 : stale[m] + 1;
+            longest = std::max(longest, stale[m]);
+            wrong += same ? 0U : 1U;
+        }
+        std::uint64_t const waiting = test::count_in(kept.counts, "maps_postponed");
+        CHECK(wrong <= waiting);
+        most_wrong = std::max(most_wrong, wrong);
+        postponed += waiting;
+        over += i > 0 && test::count_in(kept.counts, "static_triangles") > budget ? 1U : 0U;
+        if (i >= 100 + wait + 6) CHECK(wrong == 0);
+    }
+    CHECK(most_wrong >= 3);  // it was tight
+    CHECK(longest <= wait);
+    CHECK(postponed > 100);
+    CHECK(over < 60);  // only where maps waited long enough
+}
+
+TEST_CASE("a light within its thresholds keeps its maps, and beyond them gets those drawn anew", "[pipeline][cached]") {
+    LooseCubes cubes(9);
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    for (bool const turns : {false, true}) {
+        test::MapRunner plain(cpu, "shadow-map"), cached(cpu, "shadow-map-cached");
+        auto settings = small_maps();
+        settings.push_back({"rest", "0"});
+        settings.push_back(turns ? pipeline::Setting{"turn", "2"} : pipeline::Setting{"move", "0.1"});
+        pipeline::Light light = spot_among_cubes();
+        light.direction = math::dvec3(0.0, -1.0, 0.0);
+        auto const draws = [&](double by) {
+            if (turns) light.direction.x = by * 0.35;  // 2 degrees are 0.0349
+            else light.position_m.x = 0.1 + by;
+            pipeline::Frame const frame = cubes.frame(light);
+            auto const anew = plain(frame, small_maps()), kept = cached(frame, settings);
+            bool const drawn = test::count_in(kept.counts, "triangles_drawn") > 0;
+            bool const same_answers = kept.visibility == anew.visibility;
+            CHECK((!drawn || same_answers));
+            CHECK(drawn == (cached.device.texels == plain.device.texels));
+            return drawn;
+        };
+        CHECK(draws(0.0));
+        CHECK_FALSE(draws(0.05));
+        CHECK_FALSE(draws(0.09));  // of where it was drawn, not of the last frame
+        CHECK(draws(0.14));
+        CHECK_FALSE(draws(0.06));
+        light.range_m -= 1.0F;
+        CHECK(draws(0.06));
+    }
 }
 
 TEST_CASE("maps that are kept are those drawn anew, in thousands of frames", "[pipeline][cached][.full]") {

@@ -129,25 +129,79 @@ void CachedLights::tell_changes(ShadowMaps const& shadow, LightState const& now,
     state_ = now;
 }
 
-void CachedLights::plan(Verbs& verbs, ShadowMaps const& shadow, LightState const& now, bool fresh) {
+LightPlace CachedLights::place(Frame const& frame, LightThresholds const& thresholds) const {
+    LightPlace const now = place_of(frame);
+    if (other_objects_ || maps_.empty() || (thresholds.move_m <= 0.0 && thresholds.turn_rad <= 0.0)) return now;
+    // Posed as before, is it the same light?
+    Light as_before = now.light;
+    as_before.position_m = at_.light.position_m;
+    as_before.direction = at_.light.direction;
+    if (change_between({at_.light, {}}, {as_before, {}})) return now;
+    bool const near = glm::length(now.light.position_m - at_.light.position_m) <= thresholds.move_m;
+    bool const along = glm::length(glm::normalize(now.light.direction) - glm::normalize(at_.light.direction)) <= thresholds.turn_rad;
+    bool const placed = now.light.kind != LightKind::directional;
+    bool const aimed = now.light.kind != LightKind::point;
+    if ((placed && !near) || (aimed && !along)) return now;
+    LightPlace held = at_;
+    held.light = now.light;
+    held.light.position_m = at_.light.position_m;
+    held.light.direction = at_.light.direction;
+    return held;
+}
+
+void CachedLights::choose(ShadowMaps& shadow, MapsWanted const& wanted) {
+    std::array<cache::Work, 8> works{};
+    std::array<std::uint32_t, 8> order{};
+    std::size_t count = 0;
+    for (std::uint32_t m = 0; m < maps_.size(); ++m) {
+        Map const& map = maps_[m];
+        if (map.plan.action == cache::MapAction::none) continue;
+        bool const nothing_to_see = wanted.fresh || !cache::holds_image(map.cached.state());
+        bool const idle = (wanted.looked_into >> m & 1U) == 0;
+        cache::Work& work = works[count++];
+        work = {m, nothing_to_see ? cache::Priority::mandatory : idle ? cache::Priority::idle : cache::Priority::requested, 0, map.cached.stale_updates()};
+        for (std::uint32_t const i : map.plan.statics) work.cost += casters_.triangles(i);
+    }
+    auto const report = cache::choose(std::span(works).first(count), *wanted.budget, order);
+    for (std::size_t i = report.chosen; i < count; ++i) {
+        std::size_t const m = works[order[i]].id;
+        Map& map = maps_[m];
+        map.cached.postpone();
+        map.waits = true;
+        shadow.layers[m] = map.layer;
+        shadow.views[m] = map.view;
+        shadow.maps[m] = map.map_view;
+    }
+    work_.maps_postponed = report.postponed;
+}
+
+void CachedLights::plan(Verbs& verbs, ShadowMaps& shadow, MapsWanted const& wanted) {
     GNOMON_EXPECT(shadow.layers.size() <= 8);  // bits of `touches_`
     fit_objects(shadow);
-    if (fresh || content_.get().is_none()) {
+    work_ = {};
+    at_ = shadow.at;
+    if (wanted.fresh || content_.get().is_none()) {
         content_ = {};
         content_ = Held(verbs.device(), verbs(verbs.device().make_target(shadow.config)));
     }
-    tell_changes(shadow, now, fresh);
+    tell_changes(shadow, wanted.light, wanted.fresh);
     statics_.maps.assign(objects_.size(), 0);
     actives_.maps.assign(objects_.size(), 0);
     for (std::size_t m = 0; m < maps_.size(); ++m) {
+        maps_[m].plan = maps_[m].cached.plan_fixed(objects_, [&](std::uint32_t i) { return (touches_[i] >> m & 1U) != 0; });
+        maps_[m].waits = false;
+    }
+    if (wanted.budget) choose(shadow, wanted);
+    for (std::size_t m = 0; m < maps_.size(); ++m) {
         Map& map = maps_[m];
+        if (map.waits) continue;
         auto const bit = static_cast<std::uint8_t>(1U << m);
-        map.plan = map.cached.plan_fixed(objects_, [&](std::uint32_t i) { return (touches_[i] & bit) != 0; });
         map.layer = shadow.layers[m];
+        map.view = shadow.views[m];
+        map.map_view = shadow.maps[m];
         for (std::uint32_t const i : map.plan.statics) statics_.maps[i] |= bit;
         for (std::uint32_t const i : map.plan.actives) actives_.maps[i] |= bit;
     }
-    work_ = {};
 }
 
 void CachedLights::keep(Verbs& verbs, MaskedList& list) {
@@ -170,7 +224,7 @@ void CachedLights::draw_statics(Verbs& verbs, ShadowMaps const& shadow) {
     for (std::size_t m = 0; m < maps_.size(); ++m) {
         cache::MapAction const action = maps_[m].plan.action;
         bool const anew = action == cache::MapAction::redraw;
-        if (!anew && action != cache::MapAction::add) continue;
+        if (maps_[m].waits || (!anew && action != cache::MapAction::add)) continue;
         layers_.push_back(shadow.layers[m]);
         layers_.back().groups = std::uint64_t{1} << m;
         layers_.back().load = anew ? backend::Load::clear : backend::Load::keep;
@@ -187,7 +241,7 @@ void CachedLights::draw_actives(Verbs& verbs, ShadowMaps const& shadow) {
     layers_.clear();
     for (std::size_t m = 0; m < maps_.size(); ++m) {
         cache::Compose const compose = maps_[m].plan.compose;
-        if (compose == cache::Compose::keep) continue;
+        if (maps_[m].waits || compose == cache::Compose::keep) continue;
         auto const layer = static_cast<std::uint32_t>(m);
         backend::Rect const whole{0, 0, shadow.config.size_px.x, shadow.config.size_px.y};
         verbs(verbs.device().copy({content_.get(), layer, backend::Plane::depth, whole}, shadow.target.get(), layer, math::ivec2(0, 0)));
@@ -209,7 +263,8 @@ void CachedLights::draw(Verbs& verbs, ShadowMaps const& shadow) {
     draw_statics(verbs, shadow);
     verbs.device().stage("active");
     draw_actives(verbs, shadow);
-    for (Map& map : maps_) map.cached.commit();
+    for (Map& map : maps_)
+        if (!map.waits) map.cached.commit();
 }
 
 }  // namespace gnomon::pipeline

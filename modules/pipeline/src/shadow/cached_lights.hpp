@@ -4,6 +4,7 @@
 //
 // source: [CSM Scrolling, 2], the cache of maps that do not scroll
 
+#include <gnomon/cache/budget.hpp>
 #include <gnomon/cache/cached_map.hpp>
 
 #include "../cascade/casters.hpp"
@@ -23,12 +24,27 @@ struct CachedWork {
     std::uint64_t draw_calls = 0;
     std::uint64_t texels_copied = 0;
     std::uint64_t texels_cleared = 0;
+    std::uint64_t maps_postponed = 0;
 };
 
 /// All that a light's image depends on besides its casters.
 struct LightState {
     Light light;
     ShadowMapOptions options;
+};
+
+/// How far a light may go before its maps are drawn anew.
+struct LightThresholds {
+    double move_m = 0.0;
+    double turn_rad = 0.0;  ///< Small: the distance of unit vectors.
+};
+
+/// What a frame asks of its maps.
+struct MapsWanted {
+    LightState light;
+    bool fresh = false;  ///< Their target was made anew.
+    std::optional<cache::BudgetConfig> budget{};  ///< Of the static casters' triangles; none: all that is due is drawn.
+    std::uint8_t looked_into = 0xFF;              ///< Maps that a sample looks into, as bits; the others are idle.
 };
 
 /// Why maps that were drawn under `before` are not right under `now`; none if only the lookup changed.
@@ -43,11 +59,14 @@ class CachedLights {
   public:
     /// Follows the frame's casters.
     void follow(Verbs& verbs, Frame const& frame, ShadowMapOptions const& options, CasterConfig const& casters, core::ExecutorRef executor);
-    /// Decides what of each map is kept.
+    /// Where the light is to be for its maps: where it was for them, if it went no farther than `thresholds` since.
     ///
-    /// expects: `follow` of the same frame before; `shadow` has the layers of `now` and their target, which is `fresh` if it was
-    ///          made anew; `draw` of it afterwards.
-    void plan(Verbs& verbs, ShadowMaps const& shadow, LightState const& now, bool fresh);
+    /// expects: `follow` of the same frame before.
+    [[nodiscard]] LightPlace place(Frame const& frame, LightThresholds const& thresholds) const;
+    /// Decides what of each map is kept, and which maps wait. Of those `shadow` has the views that they were drawn with.
+    ///
+    /// expects: `follow` of the same frame before; `shadow` has the layers of that light and their target; `draw` afterwards.
+    void plan(Verbs& verbs, ShadowMaps& shadow, MapsWanted const& wanted);
     /// Brings the maps up to date, in stages "static" and "active".
     void draw(Verbs& verbs, ShadowMaps const& shadow);
     /// Gives up all maps: after a failure nobody knows what they hold.
@@ -55,12 +74,16 @@ class CachedLights {
 
     [[nodiscard]] CachedWork const& work() const noexcept { return work_; }
     [[nodiscard]] std::size_t maps() const noexcept { return maps_.size(); }
-    [[nodiscard]] cache::Reason reason(std::size_t map) const noexcept { return maps_[map].plan.reason; }
+    /// Why a map was drawn to; none of a map that waits.
+    [[nodiscard]] cache::Reason reason(std::size_t map) const noexcept { return maps_[map].waits ? cache::Reason::none : maps_[map].plan.reason; }
 
   private:
     struct Map {
         cache::CachedMap cached{};
-        backend::PassLayer layer;  ///< As C was drawn.
+        backend::PassLayer layer;  ///< As C was drawn; and the same as a view, and for the lookup.
+        math::View view;
+        shadow::MapView map_view{};
+        bool waits = false;
         cache::Plan plan;          ///< Points into `cached`.
     };
     /// A list of some objects, each with the maps that it is drawn to as its groups.
@@ -73,6 +96,8 @@ class CachedLights {
 
     void fit_objects(ShadowMaps const& shadow);
     void tell_changes(ShadowMaps const& shadow, LightState const& now, bool fresh);
+    /// Postpones maps beyond the budget, of which `shadow` then has what they show.
+    void choose(ShadowMaps& shadow, MapsWanted const& wanted);
     /// Keeps the list for `list.maps`, unless it is there.
     void keep(Verbs& verbs, MaskedList& list);
     void draw_statics(Verbs& verbs, ShadowMaps const& shadow);
@@ -82,6 +107,7 @@ class CachedLights {
     std::uint64_t tick_ = 0;
     bool other_objects_ = true;
     LightState state_;
+    LightPlace at_;
     std::vector<Map> maps_;
     std::vector<backend::PassLayer> seen_by_;  ///< The layers that `touches_` are of.
     std::vector<std::uint8_t> touches_;        ///< Of each object: the maps that may show it, as bits.

@@ -42,16 +42,16 @@ double stepped(double distance_m, RangeFit fit, bool up) noexcept {
 
 }  // namespace
 
-double NearestCaster::operator()(Frame const& frame, core::ExecutorRef executor) {
-    scene::Geometry const& g = *frame.geometry;
-    math::dvec3 const light = math::to_double(frame.light_position);
+double NearestCaster::operator()(scene::Geometry const& g, LightPlace const& at, core::ExecutorRef executor) {
+    if (at.light.kind == LightKind::directional) return 0.0;
+    math::vec3 const& light = at.position;
     bool const other = identity_ != g.identity || light != light_ || of_range_.size() != g.ranges.size() || g.instance_revision.size() != revisions_.size();
     if (other) of_range_.assign(g.ranges.size(), infinity);
     executor.parallel_for(g.ranges.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = begin; r < end; ++r) {
             scene::Range const& range = g.ranges[r];
             if (!other && revisions_[range.instance] == g.instance_revision[range.instance]) continue;
-            of_range_[r] = nearest_of(g, light, range.first_triangle, std::size_t{range.first_triangle} + range.triangle_count);
+            of_range_[r] = nearest_of(g, math::to_double(light), range.first_triangle, std::size_t{range.first_triangle} + range.triangle_count);
         }
     });
     identity_ = g.identity;
@@ -60,32 +60,32 @@ double NearestCaster::operator()(Frame const& frame, core::ExecutorRef executor)
     return of_range_.empty() ? infinity : *std::min_element(of_range_.begin(), of_range_.end());
 }
 
-Result<std::vector<math::View>> light_views(Frame const& frame, ShadowMapOptions const& options, double nearest_m) {
+Result<std::vector<math::View>> light_views(Frame const& frame, LightPlace const& at, ShadowMapOptions const& options, double nearest_m) {
     double const margin = 0.5 * options.lookup.taps + 1.0;
     math::dvec3 const origin = frame.geometry->origin_m;
-    if (frame.light.kind == LightKind::directional) {
+    if (at.light.kind == LightKind::directional) {
         projection::DirectionalConfig config;
         config.origin_m = origin;
         config.size_px = math::ivec2(options.resolution, options.resolution);
         config.margin_px = margin;
         config.depth = options.depth;
-        math::dvec3 const way = -math::to_double(frame.to_light);
+        math::dvec3 const way = -math::to_double(at.to_light);
         auto view = projection::directional_view(way, frame.bounds, {}, config);
         if (!view) return bad_light(view.failure());
         return std::vector<math::View>{*view};
     }
-    math::dvec3 const position = math::to_double(frame.light_position);
+    math::dvec3 const position = math::to_double(at.position);
     double const farthest = stepped(projection::distances_to(frame.bounds, position).far_m, options.fit, true);
     double const nearest = stepped(nearest_m, options.fit, false);
-    auto const range_m = static_cast<double>(frame.light.range_m);
-    auto const outer = static_cast<double>(frame.light.outer_cone_rad);
-    if (frame.light.kind == LightKind::spot && outer < projection::widest_spot_rad) {
+    auto const range_m = static_cast<double>(at.light.range_m);
+    auto const outer = static_cast<double>(at.light.outer_cone_rad);
+    if (at.light.kind == LightKind::spot && outer < projection::widest_spot_rad) {
         projection::SpotConfig config;
         double const corner = std::sqrt(2.0) * std::tan(outer) * 1.1;
         projection::DepthRange const range =
             projection::depth_range(nearest, farthest, range_m, 1.0 / std::sqrt(1.0 + corner * corner));
         config.position_m = origin + position;
-        config.direction = frame.light.direction;
+        config.direction = at.light.direction;
         config.outer_cone_rad = outer;
         config.near_m = range.near_m;
         config.far_m = range.far_m;

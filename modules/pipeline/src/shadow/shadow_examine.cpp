@@ -92,7 +92,7 @@ Result<core::Done> examine_maps(TechniqueRun const& on, ShadowMaps const& shadow
         on.executor.parallel_for(n, sample_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (verdict_of(output.visibility[i], frame.lit[i]) != Verdict::false_shadow) continue;
-                if (map_of(frame.samples.position[i], frame.light_position, maps) != named.map) continue;
+                if (map_of(frame.samples.position[i], shadow.at.position, maps) != named.map) continue;
                 output.own_hit[i] = is_own(frame, shadow.maps[named.map], named, options, i) ? 1 : 0;
             }
         });

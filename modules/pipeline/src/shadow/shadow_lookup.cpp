@@ -89,10 +89,10 @@ std::size_t map_of(math::vec3 const& position, math::vec3 const& light, std::siz
     return maps == 1 ? 0 : static_cast<std::size_t>(projection::face_of(position - light));
 }
 
-ShadowLookupStd to_std(Frame const& frame, ShadowMapOptions const& options, std::size_t maps) noexcept {
-    math::vec3 const& light = frame.light_position;
+ShadowLookupStd to_std(Frame const& frame, ShadowMaps const& shadow, ShadowMapOptions const& options) noexcept {
+    math::vec3 const& light = shadow.at.position;
     return {.count = static_cast<std::uint32_t>(frame.samples.size()),
-            .maps = static_cast<std::uint32_t>(maps),
+            .maps = static_cast<std::uint32_t>(shadow.maps.size()),
             .unorm16 = is_narrow(options) ? 1U : 0U,
             .light = {light.x, light.y, light.z},
             .config = shadow::formula_config(options.lookup)};

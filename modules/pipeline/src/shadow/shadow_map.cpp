@@ -28,7 +28,8 @@ Result<TechniqueOutput> run_shadow_map(TechniqueRun const& on) {
     state.samples.fit(verbs, on.frame);
     fit_answers(verbs, shadow, n);
     Stopwatch watch;
-    if (auto ok = fit_views(on.frame, shadow, options, NearestCaster{}(on.frame, on.executor)); !ok) return std::move(ok).failure();
+    double const nearest_m = NearestCaster{}(*on.frame.geometry, place_of(on.frame), on.executor);
+    if (auto ok = fit_views(on.frame, place_of(on.frame), shadow, options, nearest_m); !ok) return std::move(ok).failure();
     double const fit_ms = watch.lap_ms();
     if (auto ok = fit_target(verbs, shadow, options, 1); !ok) return std::move(ok).failure();
 
@@ -92,9 +93,10 @@ Result<bool> fit_target(Verbs& verbs, ShadowMaps& shadow, ShadowMapOptions const
     return true;
 }
 
-Result<core::Done> fit_views(Frame const& frame, ShadowMaps& shadow, ShadowMapOptions const& options, double nearest_m) {
-    auto views = light_views(frame, options, nearest_m);
+Result<core::Done> fit_views(Frame const& frame, LightPlace const& at, ShadowMaps& shadow, ShadowMapOptions const& options, double nearest_m) {
+    auto views = light_views(frame, at, options, nearest_m);
     if (!views) return std::move(views).failure();
+    shadow.at = at;
     shadow.views = std::move(views).value();
     shadow.maps.clear();
     shadow.layers.clear();
@@ -112,7 +114,7 @@ void look_up_all(Verbs& verbs, TechniqueRun const& on, ShadowMaps& shadow, Shado
     std::array const buffers{state.samples.samples.get(), state.samples.normals.get(), state.samples.reached.get(),
                              shadow.map_views.get(),      shadow.visibility.get(),     shadow.bias_m.get()};
     std::array const targets{backend::TargetBinding{shadow.target.get(), backend::Plane::depth}};
-    ShadowLookupStd const constants = to_std(on.frame, options, shadow.maps.size());
+    ShadowLookupStd const constants = to_std(on.frame, shadow, options);
     verbs(on.device.run(shadow_lookup_kernel, {on.frame.samples.size(), buffers, targets, backend::bytes_of(constants)}));
 }
 

@@ -48,12 +48,12 @@ struct ShadowMapOptions {
 /// The map that sees a sample: the only one, or the face in its direction.
 [[nodiscard]] std::size_t map_of(math::vec3 const& position, math::vec3 const& light, std::size_t maps) noexcept;
 
-[[nodiscard]] ShadowLookupStd to_std(Frame const& frame, ShadowMapOptions const& options, std::size_t maps) noexcept;
+[[nodiscard]] ShadowLookupStd to_std(Frame const& frame, ShadowMaps const& shadow, ShadowMapOptions const& options) noexcept;
 
 /// The list of this geometry and side, staged again only where it changed.
 void fit_draws(Verbs& verbs, Frame const& frame, ShadowMaps& shadow, raster::Cull cull);
 /// The views of the light, as the pass and the lookup need them.
-Result<core::Done> fit_views(Frame const& frame, ShadowMaps& shadow, ShadowMapOptions const& options, double nearest_m);
+Result<core::Done> fit_views(Frame const& frame, LightPlace const& at, ShadowMaps& shadow, ShadowMapOptions const& options, double nearest_m);
 /// Layers for the views, of maps of which there are `copies`.
 ///
 /// returns: whether the target is another one than before.

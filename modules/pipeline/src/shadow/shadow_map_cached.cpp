@@ -7,14 +7,20 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace gnomon::pipeline {
 
 namespace {
 
-constexpr std::array<ParamInfo, 2> own_params{{
+constexpr std::array<ParamInfo, 6> own_params{{
     {"rest", ParamKind::integer, "300", 0, 1e6, "frames", {}, "after so long without a move a caster counts as static"},
     {"batch", ParamKind::integer, "128", 1, 65536, "triangles", {}, "what is drawn or left out together: at most so many triangles that lie close"},
+    {"budget", ParamKind::integer, "0", 0, 1e9, "triangles", {},
+     "static casters drawn in one frame: maps beyond it wait and show what they showed, those first that no sample looks into; 0: no limit"},
+    {"wait", ParamKind::integer, "30", 0, 1e6, "frames", {}, "a map that is looked into waits no longer, whatever the budget"},
+    {"move", ParamKind::real, "0", 0, 1e6, "m", {}, "a light that went no farther keeps its maps, which show it where it was"},
+    {"turn", ParamKind::real, "0", 0, 10, "degrees", {}, "the same of a light that turned"},
 }};
 
 constexpr auto params_info = [] {
@@ -32,10 +38,52 @@ void count(CachedLights const& lights, ShadowMapOptions const& options, std::siz
                      {"draw_calls", work.draw_calls},
                      {"lighting_computations", samples},
                      {"texels_allocated", texels},
-                     {"texels_rewritten", work.texels_copied + work.texels_cleared}};
+                     {"texels_rewritten", work.texels_copied + work.texels_cleared},
+                     {"maps_postponed", work.maps_postponed}};
     output.bytes = {{"shadow_maps", texels * (is_narrow(options) ? 2U : 4U)}};
     for (std::size_t m = 0; m < lights.maps(); ++m)
         if (lights.reason(m) != cache::Reason::none) add_one(cache::name_of(lights.reason(m)), output.redraw_reasons);
+}
+
+/// The maps that a sample looks into, as bits.
+std::uint8_t looked_into(Frame const& frame, ShadowMaps const& shadow, core::ExecutorRef executor) {
+    std::atomic<unsigned> maps{0};
+    executor.parallel_for(frame.samples.size(), sample_grain, [&](std::size_t begin, std::size_t end) {
+        unsigned here = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            if (frame.reached[i] != 0) here |= 1U << map_of(frame.samples.position[i], shadow.at.position, shadow.views.size());
+        maps |= here;
+    });
+    return static_cast<std::uint8_t>(maps.load());
+}
+
+CasterConfig casters_of(Params const& params) {
+    CasterConfig casters;
+    casters.rest.rest_ticks = static_cast<std::uint64_t>(params.integer("rest"));
+    casters.batch_triangles = static_cast<std::uint32_t>(params.integer("batch"));
+    return casters;
+}
+
+/// Fits the maps and decides what of each is kept.
+Result<std::vector<StageTime>> plan_maps(Verbs& verbs, TechniqueRun const& on, ShadowMapOptions const& options) {
+    CachedLightRuns& runs = on.workspace.state().cached_lights;
+    ShadowMaps& shadow = runs.shadow;
+    runs.lights.follow(verbs, on.frame, options, casters_of(on.params), on.executor);
+    Stopwatch watch;
+    LightPlace const at = runs.lights.place(on.frame, {on.params.number("move"), on.params.number("turn") * 0.017453292519943295});
+    double const nearest_m = runs.nearest(*on.frame.geometry, at, on.executor);
+    if (auto ok = fit_views(on.frame, at, shadow, options, nearest_m); !ok) return std::move(ok).failure();
+    double const fit_ms = watch.lap_ms();
+    auto const fresh = fit_target(verbs, shadow, options, 2);
+    if (!fresh) return std::move(fresh).failure();
+    (void)watch.lap_ms();
+    MapsWanted wanted{.light = {at.light, options}, .fresh = *fresh};
+    if (int const budget = on.params.integer("budget"); budget > 0) {
+        wanted.budget = cache::BudgetConfig{static_cast<std::uint64_t>(budget), static_cast<std::uint64_t>(on.params.integer("wait"))};
+        wanted.looked_into = looked_into(on.frame, shadow, on.executor);
+    }
+    runs.lights.plan(verbs, shadow, wanted);
+    return std::vector<StageTime>{{"fit", fit_ms}, {"plan", watch.lap_ms()}};
 }
 
 Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
@@ -48,18 +96,8 @@ Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
     Verbs verbs(on.device);
     state.samples.fit(verbs, on.frame);
     fit_answers(verbs, shadow, n);
-    CasterConfig casters;
-    casters.rest.rest_ticks = static_cast<std::uint64_t>(on.params.integer("rest"));
-    casters.batch_triangles = static_cast<std::uint32_t>(on.params.integer("batch"));
-    runs.lights.follow(verbs, on.frame, options, casters, on.executor);
-    Stopwatch watch;
-    if (auto ok = fit_views(on.frame, shadow, options, runs.nearest(on.frame, on.executor)); !ok) return std::move(ok).failure();
-    double const fit_ms = watch.lap_ms();
-    auto const fresh = fit_target(verbs, shadow, options, 2);
-    if (!fresh) return std::move(fresh).failure();
-    (void)watch.lap_ms();
-    runs.lights.plan(verbs, shadow, {on.frame.light, options}, *fresh);
-    double const plan_ms = watch.lap_ms();
+    auto const planned = plan_maps(verbs, on, options);
+    if (!planned) return core::Failure(planned.failure());
     runs.lights.draw(verbs, shadow);
     on.device.stage("lookup");
     look_up_all(verbs, on, shadow, options);
@@ -69,7 +107,7 @@ Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
         runs.lights.forget();
         return output;
     }
-    output->stages.insert(output->stages.begin(), {{"fit", fit_ms}, {"plan", plan_ms}});
+    output->stages.insert(output->stages.begin(), planned->begin(), planned->end());
     count(runs.lights, options, n, *output);
     return output;
 }

@@ -13,6 +13,15 @@
 
 namespace gnomon::pipeline {
 
+/// Where a light is for its maps: in its frame's place, or where they were drawn from.
+struct LightPlace {
+    Light light;
+    math::vec3 position{0.0F};  ///< As `Frame::light_position`.
+    math::vec3 to_light{0.0F};  ///< As `Frame::to_light`.
+};
+
+[[nodiscard]] inline LightPlace place_of(Frame const& frame) { return {frame.light, frame.light_position, frame.to_light}; }
+
 /// The maps of one light.
 struct ShadowMaps {
     DrawList draws;
@@ -21,6 +30,7 @@ struct ShadowMaps {
     Held<backend::DrawListId> list;  ///< Of `draws`, which it may point into.
     backend::TargetConfig config;
     Held<backend::TargetId> target;  ///< Made by `config`; a layer for each map.
+    LightPlace at;  ///< What `views` were fitted to.
     std::vector<math::View> views;
     std::vector<shadow::MapView> maps;
     std::vector<backend::PassLayer> layers;
