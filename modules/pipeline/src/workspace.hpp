@@ -38,6 +38,7 @@ struct Rays {
 /// Of the techniques with cascades.
 struct CascadeRuns {
     CascadeShadows shadows;
+    math::dvec3 direction{0.0};  ///< Of the light, for the maps.
     std::vector<shadow::MapView> maps;
     StagedBuffer map_views;
     StagedBuffer depths;

@@ -168,6 +168,27 @@ TEST_CASE("maps that scroll are those drawn anew, along town's street with cars 
     CHECK(fly("spin", 0, 0, 5).redraws == 0);
 }
 
+TEST_CASE("a sun that turns by less than its threshold leaves the maps as they are, in all techniques alike", "[pipeline][cascade]") {
+    Town town("street", 0);
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    std::vector<pipeline::Setting> const slow{{"turn", "1"}, {"resolution", "64"}};
+    CascadeRunner csm(cpu, "csm", slow), scroll(cpu, "csm-scroll", slow);
+    csm.device.size_px = scroll.device.size_px = 64;
+    math::dvec3 const rest = town.scene.lights.front().direction;
+    std::uint64_t turns = 0;
+    for (int i = 0; i < 5; ++i) {  // 0.4 degrees a frame
+        town.scene.lights.front().direction = rest + math::dvec3(0.007 * i, 0.0, 0.0);
+        pipeline::Frame const frame = town.frame(50);
+        auto const anew = csm(frame), kept = scroll(frame);
+        CHECK(csm.device.codes == scroll.device.codes);
+        for (pipeline::Count const& reason : kept.redraw_reasons) turns += reason.name == "light_posed" ? reason.value : 0;
+        CHECK(count_of(anew, "triangles_drawn") > 0);
+        CHECK((count_of(kept, "triangles_drawn") > 0) == (i == 0 || i == 3));
+    }
+    CHECK(turns == 4);
+}
+
 TEST_CASE("at the paper's speeds maps that scroll draw few of the triangles", "[pipeline][cascade][.full]") {
     CHECK(fly("street", 0, 0, 150).mean() <= 0.12);
     CHECK(fly("spin", 0, 0, 150).mean() <= 0.18);

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 2> formats{"unorm16", "f32"};
 constexpr std::array<std::string_view, 2> depths{"forward", "reversed"};
 constexpr std::array<std::string_view, 2> extents{"diameter", "sphere"};
 
-constexpr std::array<ParamInfo, 14> params_info{{
+constexpr std::array<ParamInfo, 15> params_info{{
     {"cascades", ParamKind::integer, "4", 1, cascade::max_cascades, "", {}, "number of maps"},
     {"resolution", ParamKind::integer, "512", 64, 8192, "texels", {}, "side of each map"},
     {"distance", ParamKind::real, "200", 1, 1e5, "m", {}, "how far from the camera shadows go; the nearer of this and the camera's far plane"},
@@ -37,6 +37,7 @@ constexpr std::array<ParamInfo, 14> params_info{{
     {"rest", ParamKind::integer, "300", 0, 1e6, "frames", {}, "after so long without a move a caster counts as static"},
     {"batch", ParamKind::integer, "32", 1, 65536, "triangles", {}, "what is drawn or left out together: at most so many triangles that lie close"},
     {"constant", ParamKind::real, "0", -1e4, 1e4, "texels", {}, "bias toward the light, on top of what the map's own errors need"},
+    {"turn", ParamKind::real, "0", 0, 10, "degrees", {}, "a sun that turned no farther keeps its maps, which show it where it was"},
 }};
 
 CascadeOptions read_options(Params const& params, CascadeReuse reuse, Frame const& frame) {
@@ -59,6 +60,13 @@ CascadeOptions read_options(Params const& params, CascadeReuse reuse, Frame cons
     o.casters.rest.rest_ticks = static_cast<std::uint64_t>(params.integer("rest"));
     o.casters.batch_triangles = static_cast<std::uint32_t>(params.integer("batch"));
     return o;
+}
+
+/// Where the sun is to be for its maps: where it was for them, if it turned no farther than `turn` since.
+math::dvec3 held_direction(math::dvec3 const& held, math::dvec3 const& now, double turn_deg) {
+    if (turn_deg <= 0.0 || held == math::dvec3(0.0)) return now;
+    double const turned = glm::length(glm::normalize(now) - glm::normalize(held));  // the angle, nearly
+    return turned <= turn_deg * 0.017453292519943295 ? held : now;
 }
 
 shadow::LookupConfig lookup_of(Params const& params) {
@@ -165,11 +173,12 @@ Result<TechniqueOutput> run_csm(TechniqueRun const& on) {
     if (on.frame.light.kind != LightKind::directional)
         return core::Failure{Error::bad_light, std::string("cascades are for a directional light, not a ") + name_of(on.frame.light.kind) +
                                                    " one: use shadow-map"};
-    CascadeOptions const options = read_options(on.params, reuse, on.frame);
+    CascadeOptions options = read_options(on.params, reuse, on.frame);
     std::size_t const n = on.frame.samples.size();
     Workspace::State& state = on.workspace.state();
     state.move_to(on.device);
     CascadeRuns& runs = state.cascades;
+    options.cascades.direction = runs.direction = held_direction(runs.direction, options.cascades.direction, on.params.number("turn"));
     Verbs verbs(on.device);
     state.samples.fit(verbs, on.frame);
     runs.visibility.fit(verbs, n * sizeof(float));
