@@ -1,9 +1,8 @@
 // Paths, with the real binary on a small scene that slides.
 
 #include "fixtures.hpp"
-#include "process.hpp"
 #include "report.hpp"
-#include "schema.hpp"
+#include "written.hpp"
 
 #include <gnomon/check/check.hpp>
 
@@ -13,15 +12,6 @@ using namespace gnomon::command;
 using nlohmann::json;
 
 namespace {
-
-bool contains(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
-json flight_results(fs::path const& folder) { return json::parse(read_text(folder / "results.json")); }
-
-std::string first_error(json const& results) {
-    auto const errors = schema::Validator(json::parse(read_text(GNOMON_SCHEMA))).errors(results);
-    return errors.empty() ? "" : errors.front();
-}
 
 /// The table, whose instance slides by 1 m along x within 2 s.
 std::string write_sliding_table(TestFolder const& folder) {
@@ -49,7 +39,7 @@ TEST_CASE("a flight leaves a film, pictures, a page and a table of every frame",
                                   "--techniques", "shadow-map,ray", "--size", "64x48", "--out", "out"});
     CAPTURE(ended.err, ended.out);
     REQUIRE(ended.exit_code == 0);
-    json const results = flight_results(folder / "out");
+    json const results = results_in(folder / "out");
     CHECK(first_error(results) == "");
     REQUIRE(results["runs"].size() == 2);
     for (json const& run : results["runs"]) {
@@ -77,8 +67,8 @@ TEST_CASE("a flight leaves a film, pictures, a page and a table of every frame",
     std::string const csv = read_text(folder / "out" / "frames.csv");
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 2 * 4);
     std::string const page = read_text(folder / "out" / "index.html");
-    CHECK(contains(page, "data:image/webp;base64,"));
-    for (char const* outside : {"http:", "https:", "url(", "<link"}) CHECK_FALSE(contains(page, outside));
+    CHECK(has(page, "data:image/webp;base64,"));
+    for (char const* outside : {"http:", "https:", "url(", "<link"}) CHECK_FALSE(has(page, outside));
     std::vector<std::string> listed = results["gnomon"]["files"];
     std::sort(listed.begin(), listed.end());
     std::vector<std::string> found;
@@ -98,12 +88,12 @@ TEST_CASE("a frame of a flight has the errors of the same view at the same time"
     still.insert(still.end(), eye.begin(), eye.end());
     REQUIRE(gnomon_in(folder.path(), film).exit_code == 0);
     REQUIRE(gnomon_in(folder.path(), still).exit_code == 0);
-    json const frames = flight_results(folder / "film")["runs"][0]["frames"];
-    json const one = flight_results(folder / "still")["runs"][0];
+    json const frames = results_in(folder / "film")["runs"][0]["frames"];
+    json const one = results_in(folder / "still")["runs"][0];
     REQUIRE(frames.size() == 31);
     CHECK(frames[30]["error"] == one["error"]);
     CHECK(frames[0]["error"] != frames[30]["error"]);
-    CHECK(contains(one["view"], "--time 1"));
+    CHECK(has(one["view"], "--time 1"));
     // What does not move is the same at any time.
     CHECK(gnomon_in(folder.path(), {"render", write_table(folder), "--time", "1", "--size", "8x8"}).exit_code == 0);
 }
@@ -114,22 +104,22 @@ TEST_CASE("compare and render fly too; without the truth there are no errors", "
     REQUIRE(gnomon_in(folder.path(),
                       {"compare", scene, "--path", "orbit", "--frames", "2", "--size", "32x24", "--out", "c"})
                 .exit_code == 0);
-    CHECK(first_error(flight_results(folder / "c")) == "");
+    CHECK(first_error(results_in(folder / "c")) == "");
     CHECK(fs::exists(folder / "c" / "index.html"));
     CHECK_FALSE(fs::exists(folder / "c" / "shadow-map.webp"));
     Ended const drawn = gnomon_in(folder.path(), {"render", scene, "--path", "orbit", "--frames", "2", "--no-truth",
                                                   "--size", "32x24", "--out", "r"});
     CAPTURE(drawn.err, drawn.out);
     REQUIRE(drawn.exit_code == 0);
-    json const results = flight_results(folder / "r");
+    json const results = results_in(folder / "r");
     CHECK(first_error(results) == "");
     CHECK(results["runs"][0]["error"].is_null());
     CHECK(results["runs"][0]["frames"][1]["error"].is_null());
-    CHECK_FALSE(contains(drawn.out, "wrong"));
+    CHECK_FALSE(has(drawn.out, "wrong"));
     CHECK(fs::exists(folder / "r" / "shadow-map.0001.png"));
     Ended const still = gnomon_in(folder.path(), {"render", scene, "--no-truth", "--size", "16x16", "--out", "s"});
     CHECK(still.exit_code == 0);
-    CHECK(first_error(flight_results(folder / "s")) == "");
+    CHECK(first_error(results_in(folder / "s")) == "");
 }
 
 TEST_CASE("a path that cannot be flown is refused with its names", "[command][flight]") {
@@ -140,7 +130,7 @@ TEST_CASE("a path that cannot be flown is refused with its names", "[command][fl
         Ended const ended = gnomon_in(folder.path(), std::move(arguments));
         CAPTURE(ended.err);
         CHECK(ended.exit_code == 2);
-        CHECK(contains(ended.err, part));
+        CHECK(has(ended.err, part));
         CHECK(folder.entries() == before);
     };
     refused({"flythrough", scene, "--path", "orbitt"}, "did you mean 'orbit'");
@@ -196,15 +186,15 @@ TEST_CASE("with --debug, techniques that keep maps show them: files, a film, the
         CAPTURE(name);
         CHECK(fs::exists(folder / "film" / name));
     }
-    CHECK(contains(read_text(folder / "film" / "index.html"), "How they got there"));
-    CHECK(contains(read_text(folder / "film" / "results.json"), "csm-scroll-resolution-64.tint.webp"));
-    CHECK(first_error(flight_results(folder / "film")) == "");
-    json const runs = flight_results(folder / "film")["runs"];
+    CHECK(has(read_text(folder / "film" / "index.html"), "How they got there"));
+    CHECK(has(read_text(folder / "film" / "results.json"), "csm-scroll-resolution-64.tint.webp"));
+    CHECK(first_error(results_in(folder / "film")) == "");
+    json const runs = results_in(folder / "film")["runs"];
     CHECK_FALSE(runs[0].contains("map_texel_m"));
     REQUIRE(runs[1]["map_texel_m"].size() == 4);
     CHECK(runs[1]["map_texel_m"][0] < runs[1]["map_texel_m"][3]);
     with({"compare"}, {"--repeats", "1", "--out", "page"});
     CHECK(fs::exists(folder / "page" / "csm-scroll-resolution-64.maps.png"));
     CHECK_FALSE(fs::exists(folder / "page" / "shadow-map.maps.png"));
-    CHECK(contains(read_text(folder / "page" / "index.html"), "csm-scroll resolution=64, maps"));
+    CHECK(has(read_text(folder / "page" / "index.html"), "csm-scroll resolution=64, maps"));
 }
