@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -132,6 +133,38 @@ TEST_CASE("maps that scroll are as wrong as those drawn anew along all of town's
     for (std::size_t i = 0; i < 150; ++i) wrongness.measure(town.frame(i));
     std::printf("town street, 10 %% moving, 150 frames: %llu of %llu samples wrong, alike\n", static_cast<unsigned long long>(wrongness.wrong),
                 static_cast<unsigned long long>(wrongness.samples));
+}
+
+TEST_CASE("a caster whose alpha lies below its cutoff is neither drawn nor counted", "[pipeline][cascade]") {
+    scene::Scene lawn;
+    lawn.materials.resize(2);
+    lawn.materials[1].alpha_mode = scene::AlphaMode::mask;
+    lawn.materials[1].base_color.w = 0.2F;
+    scene::Mesh squares;
+    for (std::uint32_t const material : {0U, 1U}) {
+        float const height = material == 0 ? 0.0F : 2.0F;
+        scene::Primitive square;
+        for (auto const& [x, z] : {std::pair{-5.0F, -5.0F}, {-5.0F, 5.0F}, {5.0F, 5.0F}, {5.0F, -5.0F}}) square.positions.emplace_back(x, height, z);
+        square.normals.assign(4, math::vec3(0.0F, 1.0F, 0.0F));
+        square.indices = {0, 1, 2, 0, 2, 3};
+        square.material = material;
+        squares.primitives.push_back(square);
+    }
+    lawn.meshes.push_back(squares);
+    lawn.instances.push_back({"lawn", 0, math::dmat4(1.0)});
+    scene::Geometry const geometry = scene::flatten(lawn);
+    math::View const view = math::make_perspective({.eye_m = {0, 4, 8}, .target_m = {0, 0, 0}, .size_px = {32, 24}}).value();
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    pipeline::Frame const frame = pipeline::make_frame(lawn, geometry, {.view = view, .light = pipeline::sun({0.0, -1.0, 0.0}), .truth = false}, executor).value();
+    for (char const* name : {"csm", "csm-cached", "csm-scroll"}) {
+        CascadeRunner runner(cpu, name, {{"cascades", "1"}});
+        runner.device.layers = 1;
+        auto const output = runner(frame);
+        CHECK(count_of(output, "triangles_drawn") == 2);
+        CHECK(count_of(output, "batches_drawn") == 1);
+        CHECK(*std::min_element(output.visibility.begin(), output.visibility.end()) == 1.0F);
+    }
 }
 
 TEST_CASE("the picture of maps that scroll shows in red what was drawn, and asking for it changes no result", "[pipeline][cascade]") {

@@ -127,7 +127,7 @@ void CascadeShadows::plan(Map& map, std::uint32_t k) {
     }
     map.all.clear();
     for (std::uint32_t i = 0; i < map.objects.size(); ++i)
-        if (cache::may_touch(map.objects[i].box, volume)) map.all.push_back(i);
+        if (map.objects[i].state != cache::ObjectState::absent && cache::may_touch(map.objects[i].box, volume)) map.all.push_back(i);
     map.plan = {};
     map.plan.actives = map.all;
 }

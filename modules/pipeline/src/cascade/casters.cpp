@@ -10,9 +10,6 @@ namespace gnomon::pipeline {
 
 namespace {
 
-/// Triangles that are not there at all are in no range.
-constexpr std::uint32_t no_range = ~std::uint32_t{0};
-
 /// The range of each triangle; ranges of instances that can move come after the others.
 std::vector<std::uint32_t> ranges_of(Frame const& frame, std::vector<std::uint32_t>& order) {
     scene::Geometry const& g = *frame.geometry;
@@ -20,7 +17,7 @@ std::vector<std::uint32_t> ranges_of(Frame const& frame, std::vector<std::uint32
     for (bool const posed : {false, true})
         for (std::uint32_t r = 0; r < g.ranges.size(); ++r)
             if (scene::is_posed(*frame.scene, frame.scene->instances[g.ranges[r].instance]) == posed) order.push_back(r);
-    std::vector<std::uint32_t> range_of(g.indices.size() / 3, no_range);
+    std::vector<std::uint32_t> range_of(g.indices.size() / 3);  // ranges cover all triangles
     for (std::uint32_t place = 0; place < order.size(); ++place) {
         scene::Range const& range = g.ranges[order[place]];
         std::fill_n(range_of.begin() + range.first_triangle, range.triangle_count, place);
@@ -33,10 +30,10 @@ std::vector<std::uint32_t> ranges_of(Frame const& frame, std::vector<std::uint32
 void Casters::build(Frame const& frame, core::ExecutorRef executor) {
     scene::Geometry const& g = *frame.geometry;
     std::vector<std::uint32_t> order;
-    range_of_triangle_ = ranges_of(frame, order);
+    std::vector<std::uint32_t> const range_of_triangle = ranges_of(frame, order);
     batches_ = {};
     batch::Workspace workspace;
-    batch::build_batches({g.positions, g.indices, range_of_triangle_}, {.max_triangles = config_.batch_triangles}, workspace, batches_, executor);
+    batch::build_batches({g.positions, g.indices, range_of_triangle}, {.max_triangles = config_.batch_triangles}, workspace, batches_, executor);
     // Batches are ordered by group, which is a range's place in `order`.
     instance_of_.clear();
     vertices_of_.clear();
@@ -131,6 +128,8 @@ bool Casters::follow(Verbs& verbs, Frame const& frame, CasterConfig const& confi
         identity_ = nullptr;
         build(frame, executor);
         for (std::size_t i = 0; i < size(); ++i) {
+            // What is not there at all stays absent: it is neither planned nor counted.
+            if (alpha_rule(*frame.scene, frame.scene->materials[g.ranges[batches_.batches[i].group].material]).nothing) continue;
             records_[i].mobility = i < first_posed_ ? cache::Mobility::fixed : cache::Mobility::automatic;
             records_[i] = cache::advance(records_[i], cache::ObjectEvent::appeared, now);
         }

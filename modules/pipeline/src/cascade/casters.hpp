@@ -79,7 +79,6 @@ class Casters {
     scene::Geometry const* geometry_ = nullptr;
     batch::Batches batches_;  ///< In the order of the objects.
     std::vector<std::uint32_t> indices_;      ///< Of the objects' triangles, into their own vertices.
-    std::vector<std::uint32_t> range_of_triangle_;
     std::vector<std::uint32_t> instance_of_;  ///< Of each object.
     std::vector<Vertices> vertices_of_;
     std::vector<std::uint32_t> revisions_;    ///< Of each instance, as they were seen last.
