@@ -78,9 +78,10 @@ void fill(std::vector<std::uint16_t>& map, Volume const& from, Volume const& to,
             std::int64_t const at_y = to.at.y + y;
             Pillar const p = pillar_at(at_x, at_y);
             for (int i = 0; i < p.count; ++i) {
-                cascade::LightBox const box{at_x, at_y, p.z[i], at_x + 1, at_y + 1, p.z[i] + 1};
-                bool const old =
-                    had_any && (m.only_new_members ? cascade::may_cast(from, box) : cascade::holds(from, box));
+                std::int64_t const code = p.z[i] - from.at.z;
+                bool const beside = at_x < from.at.x || at_x >= from.at.x + size || at_y < from.at.y || at_y >= from.at.y + size;
+                bool const was_member = had_any && !beside && code < codes;
+                bool const old = was_member && (m.only_new_members || code >= 0);
                 if (!old) draw(map[static_cast<std::size_t>(y * size + x)], p.z[i], to, m);
             }
         }

@@ -5,6 +5,7 @@
 #include "pass_scenes.hpp"
 #include "test_host.hpp"
 
+#include <gnomon/cache/box.hpp>
 #include <gnomon/cascade.hpp>
 #include <gnomon/check/check.hpp>
 #include <gnomon/scene.hpp>
@@ -133,8 +134,9 @@ class ScrolledWalk {
         for (std::uint32_t k = 0; k < map_count; ++k) {
             cascade::Volume const& v = plan.cascades[k].volume;
             for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-                auto const box = cascade::try_box_in_light(plan.light, v, boxes_[i], math::dvec3(0.0));
-                if (box && cascade::may_cast(v, *box)) casters[k].push_back(i);
+                cache::LightUnits const units{plan.light.right, plan.light.down, plan.light.away, v.texel_m, v.depth_unit_m};
+                auto const box = cache::enclose(units, math::to_double(boxes_[i].lo), math::to_double(boxes_[i].hi));
+                if (box && cache::may_touch(*box, {v.at.x, v.at.y, v.at.z, v.size_px, v.size_px, v.codes})) casters[k].push_back(i);
             }
             layers[k].light = {plan.light.right, plan.light.down, plan.light.away, v.texel_m, v.depth_unit_m, v.at.x, v.at.y, v.at.z};
             layers[k].draws = casters[k];

@@ -33,7 +33,7 @@ struct CascadeFrame {
     math::dvec3 anchor_m{0.0, 0.0, 0.0};
     std::uint32_t count = 0;
     std::array<CascadePlan, max_cascades> cascades{};
-    /// Casters may lie in front of code 0, and must be drawn at code 0 ("pancaking", see `may_cast`): depths there are
+    /// Casters may lie in front of code 0, and must be drawn at code 0 ("pancaking"): depths there are
     /// no distances, which filters that measure them (PCSS, moments) must know. False with `scene_bounds`, which hold
     /// all.
     bool clamp_near = true;

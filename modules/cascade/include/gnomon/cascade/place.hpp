@@ -6,6 +6,9 @@
 
 #include <gnomon/cascade/fit.hpp>
 
+#include <limits>
+#include <optional>
+
 namespace gnomon::cascade {
 
 /// A box about a sub-frustum, light axes, metres from the anchor.

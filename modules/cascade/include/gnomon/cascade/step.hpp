@@ -107,7 +107,7 @@ struct Update {
     Action action = Action::redraw;
     Reason reason = Reason::first;
     Place shift;                 ///< From the old place to the new one, never wrapped; 0 with `redraw` of other units.
-    ExposedRects exposed;        ///< To be drawn: all of the map with `redraw`. See also `holds` for shifts in depth.
+    ExposedRects exposed;        ///< To be drawn: all of the map with `redraw`. Shifts in depth reveal more.
     std::int32_t add_codes = 0;  ///< Added to every code that is not the last, for forward depth: -shift.z.
 
     friend constexpr bool operator==(Update const&, Update const&) noexcept = default;
@@ -120,7 +120,7 @@ struct Update {
 /// What to do when a map that holds `from` has to hold `to`, in the same light frame.
 ///
 /// A move in depth alone exposes no texel, but reveals what was beyond the last code or clamped at the first: whoever
-/// draws the exposed strips draws every member of the old volume again that it did not hold (`holds`).
+/// draws the exposed strips draws every member of the old volume again that it did not hold whole (`cache::shows_more`).
 [[nodiscard]] constexpr Update update_from(Volume const& from, Volume const& to) noexcept {
     if (from.size_px != to.size_px) return redraw(Reason::map_size, to.size_px);
     if (from.codes != to.codes) return redraw(Reason::depth_format, to.size_px);

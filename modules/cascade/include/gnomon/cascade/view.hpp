@@ -42,8 +42,8 @@ namespace gnomon::cascade {
 }
 
 /// The volume in which casters are looked for, as half-spaces for positions relative to `origin_m`: the map's four
-/// sides and its far end, one unit farther out than the map. No plane bounds it toward the light: see `may_cast`, which
-/// asks the same of boxes in whole units.
+/// sides and its far end, one unit farther out than the map. No plane bounds it toward the light: what lies in front of
+/// code 0 is drawn at code 0. `cache::may_touch` asks the same of boxes in whole units.
 ///
 /// expects: a volume of `light` about `anchor_m`.
 /// returns: what is right of the left side, left of the right side, below the top, above the bottom, before the far
@@ -58,12 +58,11 @@ namespace gnomon::cascade {
     auto const end = [](std::int64_t last, double unit_m, double at) {
         return static_cast<double>(last + 1) * unit_m - at;
     };
-    LightBox const box = box_of(v);
-    return {math::Plane{light.right, begin(box.x0, v.texel_m, origin.x)},
-            math::Plane{-light.right, end(box.x1, v.texel_m, origin.x)},
-            math::Plane{light.down, begin(box.y0, v.texel_m, origin.y)},
-            math::Plane{-light.down, end(box.y1, v.texel_m, origin.y)},
-            math::Plane{-light.away, end(box.z1, v.depth_unit_m, origin.z)}};
+    return {math::Plane{light.right, begin(v.at.x, v.texel_m, origin.x)},
+            math::Plane{-light.right, end(v.at.x + v.size_px, v.texel_m, origin.x)},
+            math::Plane{light.down, begin(v.at.y, v.texel_m, origin.y)},
+            math::Plane{-light.down, end(v.at.y + v.size_px, v.texel_m, origin.y)},
+            math::Plane{-light.away, end(v.at.z + v.codes, v.depth_unit_m, origin.z)}};
 }
 
 /// Seen from its middle.
