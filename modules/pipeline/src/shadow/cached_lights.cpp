@@ -175,15 +175,17 @@ void CachedLights::choose(ShadowMaps& shadow, MapsWanted const& wanted) {
     work_.maps_postponed = report.postponed;
 }
 
-void CachedLights::plan(Verbs& verbs, ShadowMaps& shadow, MapsWanted const& wanted) {
+void CachedLights::fit_content(Verbs& verbs, ShadowMaps const& shadow, bool fresh) {
+    if (!fresh && !content_.get().is_none()) return;
+    content_ = {};
+    content_ = Held(verbs.device(), verbs(verbs.device().make_target(shadow.config)));
+}
+
+void CachedLights::plan(ShadowMaps& shadow, MapsWanted const& wanted) {
     GNOMON_EXPECT(shadow.layers.size() <= 8);  // bits of `touches_`
     fit_objects(shadow);
     work_ = {};
     at_ = shadow.at;
-    if (wanted.fresh || content_.get().is_none()) {
-        content_ = {};
-        content_ = Held(verbs.device(), verbs(verbs.device().make_target(shadow.config)));
-    }
     tell_changes(shadow, wanted.light, wanted.fresh);
     statics_.maps.assign(objects_.size(), 0);
     actives_.maps.assign(objects_.size(), 0);

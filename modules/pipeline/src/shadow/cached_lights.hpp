@@ -63,10 +63,12 @@ class CachedLights {
     ///
     /// expects: `follow` of the same frame before.
     [[nodiscard]] LightPlace place(Frame const& frame, LightThresholds const& thresholds) const;
+    /// Makes the maps of the static casters, like those of `shadow`, where there are none or those were made anew.
+    void fit_content(Verbs& verbs, ShadowMaps const& shadow, bool fresh);
     /// Decides what of each map is kept, and which maps wait. Of those `shadow` has the views that they were drawn with.
     ///
-    /// expects: `follow` of the same frame before; `shadow` has the layers of that light and their target; `draw` afterwards.
-    void plan(Verbs& verbs, ShadowMaps& shadow, MapsWanted const& wanted);
+    /// expects: `follow` and `fit_content` of the same frame before; `shadow` has the layers of that light; `draw` afterwards.
+    void plan(ShadowMaps& shadow, MapsWanted const& wanted);
     /// Brings the maps up to date, in stages "static" and "active".
     void draw(Verbs& verbs, ShadowMaps const& shadow);
     /// Gives up all maps: after a failure nobody knows what they hold.

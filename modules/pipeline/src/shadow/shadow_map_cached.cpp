@@ -76,13 +76,14 @@ Result<std::vector<StageTime>> plan_maps(Verbs& verbs, TechniqueRun const& on, S
     double const fit_ms = watch.lap_ms();
     auto const fresh = fit_target(verbs, shadow, options, 2);
     if (!fresh) return std::move(fresh).failure();
+    runs.lights.fit_content(verbs, shadow, *fresh);
     (void)watch.lap_ms();
     MapsWanted wanted{.light = {at.light, options}, .fresh = *fresh};
     if (int const budget = on.params.integer("budget"); budget > 0) {
         wanted.budget = cache::BudgetConfig{static_cast<std::uint64_t>(budget), static_cast<std::uint64_t>(on.params.integer("wait"))};
         wanted.looked_into = looked_into(on.frame, shadow, on.executor);
     }
-    runs.lights.plan(verbs, shadow, wanted);
+    runs.lights.plan(shadow, wanted);
     return std::vector<StageTime>{{"fit", fit_ms}, {"plan", watch.lap_ms()}};
 }
 
