@@ -15,7 +15,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, set = 0, binding = 0) readonly buffer State { DeviceState state; };
+layout(std430, set = 0, binding = 0) buffer State { DeviceState state; };
 layout(std430, set = 0, binding = 1) readonly buffer Unique { uint unique_keys[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Ready { float ready[]; };
@@ -160,11 +160,15 @@ void assign_cluster(uint cluster, uint lane) {
         }
     }
     barrier();
-    if (lane == 0u && c.fill == 0u) offsets[cluster] = found;
+    if (lane == 0u && c.fill == 0u) {
+        offsets[cluster] = found;
+        atomicMax(state.longest, found);
+    }
     if (lane == 0u && c.fill != 0u) cells[cluster] = uvec2(first, found);
 }
 
 void main() {
+    if (tile_index() >= c.groups) return;  // a grid's last row may be longer
     uint clusters = state.clusters;
     for (uint cluster = tile_index(); cluster < clusters; cluster += c.groups) assign_cluster(cluster, gl_LocalInvocationID.x);
 }

@@ -16,6 +16,7 @@ struct DeviceState {
     uint node_slots;
     uint count[12];
     uint first[12];
+    uint longest;
 };
 
 #endif

@@ -13,7 +13,10 @@ layout(std430, set = 0, binding = 0) readonly buffer State { DeviceState state; 
 layout(std430, set = 0, binding = 1) readonly buffer Cells { uvec2 cells[]; };
 layout(std430, set = 0, binding = 2) readonly buffer List { uint list[]; };
 layout(std430, set = 0, binding = 3) coherent buffer Ordered { uint ordered[]; };
-layout(push_constant) uniform Constants { uint groups; } c;
+layout(push_constant) uniform Constants {
+    uint groups;
+    uint first_step, end_step;
+} c;
 
 const uint longest_short = 1024u;
 
@@ -41,17 +44,25 @@ void step_done() {
     barrier();
 }
 
+bool is_step(uint step) { return step >= c.first_step && step < c.end_step; }
+
 void merge(uvec2 cell, uint lane) {
-    for (uint k = lane; k < cell.y; k += lanes) ordered[cell.x + k] = list[cell.x + k];
-    step_done();
+    if (is_step(0u)) {
+        for (uint k = lane; k < cell.y; k += lanes) ordered[cell.x + k] = list[cell.x + k];
+        step_done();
+    }
+    uint step = 1u;
     for (uint block = 2u; block / 2u < cell.y; block *= 2u) {
         uint half_block = block / 2u;
-        for (uint pair = lane; pair < cell.y; pair += lanes) {
-            uint begin = pair / half_block * block;
-            order(cell, begin + pair % half_block, begin + block - 1u - pair % half_block);
+        if (is_step(step++)) {
+            for (uint pair = lane; pair < cell.y; pair += lanes) {
+                uint begin = pair / half_block * block;
+                order(cell, begin + pair % half_block, begin + block - 1u - pair % half_block);
+            }
+            step_done();
         }
-        step_done();
         for (uint apart = block / 4u; apart > 0u; apart /= 2u) {
+            if (!is_step(step++)) continue;
             for (uint pair = lane; pair < cell.y; pair += lanes) {
                 uint i = pair / apart * 2u * apart + pair % apart;
                 order(cell, i, i + apart);
@@ -62,9 +73,10 @@ void merge(uvec2 cell, uint lane) {
 }
 
 void main() {
+    if (tile_index() >= c.groups) return;  // a grid's last row may be longer
     for (uint cluster = tile_index(); cluster < state.clusters; cluster += c.groups) {
         uvec2 cell = cells[cluster];
-        if (cell.y <= longest_short) rank(cell, gl_LocalInvocationID.x);
-        else merge(cell, gl_LocalInvocationID.x);
+        if (cell.y > longest_short) merge(cell, gl_LocalInvocationID.x);
+        else if (c.first_step == 0u) rank(cell, gl_LocalInvocationID.x);
     }
 }

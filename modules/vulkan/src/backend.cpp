@@ -6,6 +6,21 @@
 
 namespace gnomon::vulkan {
 
+namespace {
+
+/// lavapipe counts the rounds of all loops of an invocation together, and ends the one that has the 65,535th.
+std::uint32_t loop_rounds_of(Gpu const& gpu) noexcept {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    all.pNext = &driver;
+    gpu.call.GetPhysicalDeviceProperties2(gpu.physical, &all);
+    return driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? 65'000 : backend::Limits{}.loop_rounds;
+}
+
+}  // namespace
+
 Backend::Backend(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 Backend::~Backend() = default;
 
@@ -16,6 +31,7 @@ backend::Result<std::unique_ptr<Backend>> Backend::make(GpuRef gpu, Host const& 
                              "vulkan::Backend: it needs a device and both functions of the host"};
     auto state = std::make_unique<State>(std::move(gpu), host);
     state->ortho_config = ortho;
+    state->loop_rounds = loop_rounds_of(*state->gpu);
     return std::unique_ptr<Backend>(new Backend(std::move(state)));
 }
 
@@ -29,6 +45,7 @@ backend::Limits Backend::limits() const noexcept {
     limits.target_px = static_cast<std::int32_t>(side);
     limits.target_layers = std::min({l.maxImageArrayLayers, l.maxFramebufferLayers, 256U});
     limits.buffer_bytes = std::min<std::uint64_t>(limits.buffer_bytes, l.maxStorageBufferRange);
+    limits.loop_rounds = state_->loop_rounds;
     return limits;
 }
 

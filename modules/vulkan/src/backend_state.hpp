@@ -109,6 +109,7 @@ struct Backend::State {
 
     PassPipelinesRef pass_pipelines;
     std::optional<SampleQueries> queries;
+    std::uint32_t loop_rounds = 0;  ///< backend::Limits
     OrthoPipelinesConfig ortho_config;
     std::optional<OrthoPipelines> ortho_pipelines;
     backend::Slots<backend::DrawListId, DrawList> lists;

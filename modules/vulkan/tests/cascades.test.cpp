@@ -88,5 +88,5 @@ TEST_CASE("cascades that scroll on the device are its own redraw, in a thousand 
     fly_on_device({"street", 10, 0, 250, small, 256, true});
     fly_on_device({"spin", 10, 0, 250, reversed, 256, true});
     fly_on_device({"both", 10, 0, 250, small, 256, true});
-    fly_on_device({"both", 50, 0, 250, reversed, 256, true});
+    fly_on_device({"both", 20, 0, 250, reversed, 256, true});
 }

@@ -99,3 +99,58 @@ TEST_CASE("more lights than a tile's list holds, or an invocation may loop over,
     }
     CHECK(device->take_messages() == "");
 }
+
+namespace {
+
+/// A corner of the atrium under so many bulbs that all reach it.
+struct CrowdedCorner {
+    scene::Scene scene;
+    scene::Geometry geometry;
+
+    explicit CrowdedCorner(std::size_t bulbs) {
+        scene = scene::make_procedural({.name = "atrium", .lights = "1"}).value();
+        geometry = scene::flatten(scene);
+        scene.lights.clear();
+        for (std::size_t i = 0; i < bulbs; ++i) {
+            scene.lights.push_back(pipeline::bulb(math::dvec3(0.001 * static_cast<double>(i % 1000), 2.0, 0.0), 200.0F));
+            scene.lights.back().intensity = 0.001F * static_cast<float>(1 + i % 7);
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("lights beyond what an invocation may loop over are evaluated all the same, or refused", "[vulkan][lighting]") {
+    auto const device = vulkan::test::Device::make();
+    REQUIRE(device != nullptr);
+    vulkan::test::TestHost host(*device);
+    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
+    REQUIRE(gpu.has_value());
+    core::SerialExecutor serial;
+    raster::CpuBackend cpu(serial);
+    constexpr std::uint32_t bulbs = 70'000;
+    CrowdedCorner const corner(bulbs);
+    auto const view = scene::make_view(corner.scene.cameras.front(), {8, 6}).value();
+    auto const frame = pipeline::make_frame(corner.scene, corner.geometry, {view, pipeline::sun({0.3, -1.0, 0.2}), false, nullptr, pipeline::SampleRule::formula}, serial);
+    REQUIRE(frame.has_value());
+    std::size_t refused = 0;
+    for (std::string const name : {"tiled-deferred", "clustered-deferred", "clustered-deferred-device", "tiled-deferred-single", "forward",
+                                   "tiled-forward", "tiled-forward-prez", "clustered-forward"}) {
+        pipeline::LightingTechnique const& technique = *pipeline::find_lighting_technique(name).value();
+        CAPTURE(technique.name);
+        auto const params = pipeline::make_params(technique, {}).value();
+        pipeline::Workspace workspace;
+        auto const theirs = technique.run({*frame, corner.scene.lights, params, workspace, **gpu, serial});
+        if (!theirs) {
+            CHECK(theirs.failure().message.find("70000 lights") != std::string::npos);
+            ++refused;
+            continue;
+        }
+        auto const ours = lit(technique, *frame, {}, cpu);
+        CHECK(*std::max_element(ours.computations.begin(), ours.computations.end()) == bulbs);
+        CHECK((ours.computations == theirs->computations));
+        CHECK((ours.radiance == theirs->radiance));
+    }
+    CHECK(refused == (gpu.value()->limits().loop_rounds < bulbs ? 4U : 0U));  // forward shading: one fragment, one loop
+    CHECK(device->take_messages() == "");
+}

@@ -262,5 +262,5 @@ TEST_CASE("maps that scroll on the device are their own redraw by integer passes
 
 TEST_CASE("the same over long walks", "[vulkan][ortho][scroll][.full]") {
     for (std::string const path : {"street", "spin", "both"})
-        for (math::Depth const depth : {math::Depth::forward, math::Depth::reversed}) check_walk(walk(path, 167, depth));
+        for (math::Depth const depth : {math::Depth::forward, math::Depth::reversed}) check_walk(walk(path, 100, depth));
 }

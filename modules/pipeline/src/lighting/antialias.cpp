@@ -44,6 +44,7 @@ Result<AntialiasedOutput> shade_antialiased(LightingRun const& on, AntialiasConf
     Stopwatch watch;
     auto const grid = list_by_tile(on, l, static_cast<std::uint32_t>(config.tile_px), nullptr);
     if (!grid) return grid.failure();
+    if (auto ok = check_loops(on.device, *grid, antialias_samples); !ok) return std::move(ok).failure();
     std::vector<StageTime> stages{{"assign", watch.lap_ms()}};
     on.device.stage("depth_pass");
     auto const layers = sample_layers(on.frame);

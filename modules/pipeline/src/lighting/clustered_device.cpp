@@ -49,8 +49,8 @@ void record_shade(LightingRun const& on, Verbs& verbs, DeviceLists const& lists,
                              lists.cells.get(),           lists.ordered.get(), l.radiance.get(), l.computations.get()};
     bool const orthographic = on.frame.view.lens == math::Lens::orthographic;
     math::vec3 const eye = shading_eye(on.frame);
-    ShadeListsStd const c{static_cast<std::uint32_t>(n), l.format == GBufferFormat::f16 ? 1U : 0U, orthographic ? 1U : 0U, {eye.x, eye.y, eye.z}};
-    verbs(on.device.run(shade_lists_kernel, {n, buffers, {}, backend::bytes_of(c)}));
+    ShadeListsStd const c{static_cast<std::uint32_t>(n), l.format == GBufferFormat::f16 ? 1U : 0U, orthographic ? 1U : 0U, {eye.x, eye.y, eye.z}, 0, 0};
+    run_shade_lists(verbs, buffers, c, lists.sizes().state.longest);
     on.device.stage("");
     output.radiance.resize(n);
     output.computations.resize(n);

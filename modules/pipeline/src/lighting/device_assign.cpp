@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -128,9 +129,17 @@ struct Assigning {
     }
 };
 
+/// To `value`, if it is less.
+void raise(std::uint32_t& number, std::uint32_t value) noexcept {
+    std::atomic_ref<std::uint32_t> const shared(number);
+    std::uint32_t held = shared.load(std::memory_order_relaxed);
+    while (held < value && !shared.compare_exchange_weak(held, value, std::memory_order_relaxed)) {
+    }
+}
+
 void assign_device_lights(backend::KernelData const& data, std::size_t begin, std::size_t end) {
     auto const c = data.constant<AssignLightsStd>();
-    DeviceStateStd const& state = data.buffer<DeviceStateStd const>(0)[0];
+    DeviceStateStd& state = data.buffer<DeviceStateStd>(0)[0];
     Assigning const work{c,
                          {{c.columns, c.rows, c.slices, c.cells, 0}, c.packed != 0},
                          state,
@@ -149,6 +158,7 @@ void assign_device_lights(backend::KernelData const& data, std::size_t begin, st
             if (c.fill == 0) {
                 work.each_light(cluster, [&](std::uint32_t) { ++count; });
                 offsets[cluster] = count;
+                raise(state.longest, count);
             } else {
                 std::uint32_t const first = offsets[cluster];
                 work.each_light(cluster, [&](std::uint32_t light) { list[first + count++] = light; });
@@ -159,13 +169,14 @@ void assign_device_lights(backend::KernelData const& data, std::size_t begin, st
 }
 
 void order_device_lists(backend::KernelData const& data, std::size_t begin, std::size_t end) {
-    auto const groups = data.constant<std::uint32_t>();
+    auto const c = data.constant<OrderListsStd>();
+    if (c.first_step != 0) return;  // ordered at once
     DeviceStateStd const& state = data.buffer<DeviceStateStd const>(0)[0];
     auto const cells = data.buffer<lights::Cell const>(1);
     auto const list = data.buffer<std::uint32_t const>(2);
     auto const ordered = data.buffer<std::uint32_t>(3);
     for_each_group(begin, end, [&](std::size_t group) {
-        for (std::size_t cluster = group; cluster < state.clusters; cluster += groups) {
+        for (std::size_t cluster = group; cluster < state.clusters; cluster += c.groups) {
             auto const from = list.subspan(cells[cluster].offset, cells[cluster].count);
             auto const to = ordered.subspan(cells[cluster].offset, cells[cluster].count);
             std::copy(from.begin(), from.end(), to.begin());

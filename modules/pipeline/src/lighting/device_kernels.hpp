@@ -32,10 +32,11 @@ struct DeviceStateStd {
     std::uint32_t node_slots = 0;
     std::uint32_t count[bvh::max_levels] = {};
     std::uint32_t first[bvh::max_levels] = {};
+    std::uint32_t longest = 0;  ///< List, in lights.
 
     static constexpr std::int32_t last_place = std::numeric_limits<std::int32_t>::max();
 };
-static_assert(sizeof(DeviceStateStd) == 160);
+static_assert(sizeof(DeviceStateStd) == 164);
 
 // --- keys and unique clusters ----------------------------------------------------------------------------------------
 //
@@ -133,9 +134,9 @@ extern backend::Kernel const tree_nodes_kernel;
 // --- assignment ------------------------------------------------------------------------------------------------------
 //
 // ready_lights    0 lights::Light[n]  1 balls  2 out `ready_words` a light, which only the same backend's kernels read
-// assign_lights   0 state  1 unique keys  2 tables: see row_tables  3 ready lights  4 items  5 nodes  6 ids  7 everywhere
+// assign_lights   0 state, whose `longest` it counts  1 unique keys  2 tables: see row_tables  3 ready lights  4 items  5 nodes  6 ids  7 everywhere
 //                 8 offsets: out counts, or in scanned  9 out cells  10 out list, in no order
-// order_lists     0 state  1 cells  2 list  3 out ordered list
+// order_lists     0 state  1 cells  2 list  3 out ordered list. Lists above `rank_longest` in steps, see `order_steps`.
 
 inline constexpr std::uint32_t ready_words = 68;
 
@@ -155,7 +156,20 @@ struct AssignLightsStd {
 
 struct OrderListsStd {
     std::uint32_t groups;
+    std::uint32_t first_step, end_step;
 };
+
+/// Lists up to here are ordered in one step, the first.
+inline constexpr std::uint32_t rank_longest = 1024;
+
+/// Steps of the longest list: a copy, then those of a merge sort; each takes a lane through a 64th of the list.
+[[nodiscard]] constexpr std::uint32_t order_steps(std::uint32_t longest) noexcept {
+    if (longest <= rank_longest) return 1;
+    std::uint32_t blocks = 0;
+    while ((std::uint64_t{1} << blocks) < longest) ++blocks;
+    return 1 + blocks * (blocks + 1) / 2;
+}
+static_assert(order_steps(1024) == 1 && order_steps(1025) == 67 && order_steps(65'536) == 137);
 
 extern backend::Kernel const ready_lights_kernel;
 extern backend::Kernel const assign_lights_kernel;

@@ -19,6 +19,17 @@ constexpr std::uint32_t most_groups = 4096;
 
 std::uint32_t tiles_of(std::uint32_t count) noexcept { return std::max(1U, (count + tile_numbers - 1) / tile_numbers); }
 
+/// Groups that take at most `each` clusters.
+std::uint32_t groups_for(std::uint32_t clusters, std::uint32_t each) noexcept {
+    std::uint32_t const least = (clusters + std::max(1U, each) - 1) / std::max(1U, each);
+    return std::max({1U, std::min(most_groups, clusters), least});
+}
+
+/// Most rounds of a group over a cluster that all lights touch: a node of 32, or 64 lights, in each.
+std::uint32_t assign_rounds(std::size_t lights) noexcept {
+    return static_cast<std::uint32_t>(lights / 31 + lights / backend::kernel_local_size) + 2 * bvh::max_levels + 8;
+}
+
 std::uint32_t words_of_bits(DeviceListsInput const& in) noexcept { return static_cast<std::uint32_t>((in.layout.domain() + 31) / 32); }
 
 std::uint32_t count_of(std::size_t n) noexcept { return static_cast<std::uint32_t>(n); }
@@ -90,6 +101,9 @@ Result<core::Done> DeviceLists::upload(Verbs& verbs, DeviceListsInput const& in)
     GNOMON_EXPECT(in.layout.domain() < 0xFFFFFFFFU);
     if (in.lights.size() > 1U << 30U)
         return core::Failure{Error::too_large, std::to_string(in.lights.size()) + " lights; a device takes 2^30"};
+    if (assign_rounds(in.lights.size()) > verbs.device().limits().loop_rounds)
+        return core::Failure{Error::too_large, std::to_string(in.lights.size()) + " lights: the loops of this device end after " +
+                                                   std::to_string(verbs.device().limits().loop_rounds) + " rounds"};
     if (pixels_of_ != in.frame.state) {
         pixels_of_ = nullptr;
         pixels.fill<std::uint32_t>(verbs, in.frame.samples.pixel);
@@ -161,7 +175,8 @@ void DeviceLists::build_tree(Verbs& verbs, DeviceListsInput const& in) {
 
 void DeviceLists::assign(Verbs& verbs, DeviceListsInput const& in, bool fill) {
     auto const& counts = in.layout.counts;
-    AssignLightsStd const c{fill ? 1U : 0U, std::min(most_groups, std::max(1U, capacity(in))), counts.columns, counts.rows, counts.slices,
+    std::uint32_t const groups = groups_for(capacity(in), verbs.device().limits().loop_rounds / assign_rounds(in.lights.size()));
+    AssignLightsStd const c{fill ? 1U : 0U, groups, counts.columns, counts.rows, counts.slices,
                             in.grid.table().perspective, counts.cells, in.layout.packed ? 1U : 0U};
     run_kernel(verbs, assign_lights_kernel, std::size_t{c.groups} * backend::kernel_local_size,
                std::array{state.get(), unique_keys.get(), tables.get(), ready.get(), items.get(), nodes.get(), ids.get(), everywhere.get(),
@@ -187,9 +202,16 @@ void DeviceLists::fill(Verbs& verbs, DeviceListsInput const& in) {
     GNOMON_EXPECT(sizes_.pairs != ~0U);
     list.fit(verbs, std::size_t{sizes_.pairs} * 4);
     assign(verbs, in, true);
-    std::uint32_t const groups = std::min(most_groups, std::max(1U, capacity(in)));
-    run_kernel(verbs, order_lists_kernel, std::size_t{groups} * backend::kernel_local_size,
-               std::array{state.get(), cells.get(), list.get(), ordered.fit(verbs, std::size_t{sizes_.pairs} * 4)}, OrderListsStd{groups});
+    // A lane compares a 64th of a short list's lights with all of it. Of long ones a group takes one.
+    std::uint32_t const longest = sizes_.state.longest;
+    std::uint32_t const share = (longest + backend::kernel_local_size - 1) / backend::kernel_local_size;
+    std::uint32_t const at_once = longest > rank_longest ? 1 : most_iterations / (share * (longest + 2) + 1);
+    std::uint32_t const groups = groups_for(sizes_.state.clusters, at_once);
+    std::array const buffers{state.get(), cells.get(), list.get(), ordered.fit(verbs, std::size_t{sizes_.pairs} * 4)};
+    std::uint32_t const most_steps = std::max(1U, (most_iterations - 1024) / std::max(1U, share));
+    for (std::uint32_t step = 0; step < order_steps(longest); step += most_steps)
+        run_kernel(verbs, order_lists_kernel, std::size_t{groups} * backend::kernel_local_size, buffers,
+                   OrderListsStd{groups, step, step + most_steps});
 }
 
 }  // namespace gnomon::pipeline

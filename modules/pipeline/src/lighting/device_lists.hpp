@@ -57,7 +57,7 @@ struct DeviceListsSizes {
 /// Buffers, kept from frame to frame.
 class DeviceLists {
   public:
-    /// returns: `too_large` above 2^30 lights.
+    /// returns: `too_large` above 2^30 lights, or above what a group may loop over.
     [[nodiscard]] Result<core::Done> upload(Verbs& verbs, DeviceListsInput const& in);
     void find_keys(Verbs& verbs, DeviceListsInput const& in);
     void find_unique(Verbs& verbs, DeviceListsInput const& in);

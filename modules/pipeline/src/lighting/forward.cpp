@@ -92,6 +92,7 @@ Result<LightingOutput> run_forward(ForwardKind kind, LightingRun const& on) {
     Stopwatch watch;
     auto grid = make_lists(kind, on, l);
     if (!grid) return std::move(grid).failure();
+    if (auto ok = check_loops(on.device, *grid, 1); !ok) return std::move(ok).failure();
     std::vector<StageTime> stages{{"assign", watch.lap_ms()}};
     on.device.stage("upload");
     stage_lists(verbs, l, *grid);
@@ -136,6 +137,15 @@ void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass) {
                                      .blend = over ? backend::Blend::over : backend::Blend::replace_and_add,
                                      .color = pass.color};
     verbs(verbs.device().shade(pass.list, f.target.get(), pass.layer, forward_kernel, call));
+}
+
+Result<core::Done> check_loops(backend::Backend const& device, ForwardGrid const& grid, std::uint32_t times) {
+    std::uint64_t longest = 0;
+    for (lights::Cell const& cell : grid.cells) longest = std::max<std::uint64_t>(longest, cell.count);
+    std::uint64_t const others = 128;  // other rounds of a fragment
+    if (longest * times + others <= device.limits().loop_rounds) return core::Done{};
+    return core::Failure{Error::too_large, std::to_string(longest) + " lights in a list, which a fragment takes in one loop; those of this device end after " +
+                                               std::to_string(device.limits().loop_rounds) + " rounds: shade deferred, or use fewer lights"};
 }
 
 void stage_lists(Verbs& verbs, Lighting& l, ForwardGrid const& grid) {

@@ -74,6 +74,11 @@ void record_forward(Verbs& verbs, Lighting& l, ForwardPass const& pass);
 /// Sets up the workspace, the lights and what is drawn.
 [[nodiscard]] Lighting& begin_forward(LightingRun const& on, Verbs& verbs);
 
+/// A fragment takes its list in one loop, `times` over.
+///
+/// returns: `too_large` where a list is longer than the device's loops.
+[[nodiscard]] Result<core::Done> check_loops(backend::Backend const& device, ForwardGrid const& grid, std::uint32_t times);
+
 /// Stages lights and lists.
 void stage_lists(Verbs& verbs, Lighting& l, ForwardGrid const& grid);
 

@@ -12,12 +12,17 @@
 
 namespace gnomon::pipeline {
 
+/// What loops of one invocation may add up to: lavapipe ends them after 65,535 iterations and says nothing, and a device that
+/// takes too long over one is reset. Work is split by it: on the CPU too, for the same calls on every backend.
+inline constexpr std::uint32_t most_iterations = 40960;
+
 // --- shade_lists: each sample under the lights of its list ------------------------------------------------------------
 //
 // buffers   0 samples: sample::ViewSample[n]   1 uint gbuffer[n][16 or 8]: see GBufferTexel   2 lights::ShadedLight[]
 //           3 uint list_of[n]: which list is a sample's; `no_list`: none   4 lights::Cell cells[]: offset, count
 //           5 uint indices[]: into the lights   6 out float radiance[n][3]   7 out uint computations[n]
-// The sum begins with what no light adds, and takes the list's lights in its order.
+// The sum begins with what no light adds, and takes the list's lights in its order: those from `first` to `end` in a run,
+// after those before, whose sum 6 then holds.
 
 inline constexpr std::uint32_t no_list = 0xFFFFFFFFU;
 
@@ -26,8 +31,9 @@ struct ShadeListsStd {
     std::uint32_t halves;        ///< 1: the G-buffer has 16 bits a number.
     std::uint32_t orthographic;  ///< 1: `eye` is the direction toward the eye.
     float eye[3];                ///< Work space.
+    std::uint32_t first, end;    ///< Places in lists.
 };
-static_assert(sizeof(ShadeListsStd) == 24);
+static_assert(sizeof(ShadeListsStd) == 32);
 
 extern backend::Kernel const shade_lists_kernel;
 

@@ -145,6 +145,15 @@ Result<LightingOutput> read_image(LightingRun const& on, Verbs& verbs, std::vect
     return output;
 }
 
+void run_shade_lists(Verbs& verbs, std::span<backend::BufferId const> buffers, ShadeListsStd constants, std::uint32_t longest) {
+    constants.end = 0;
+    do {
+        constants.first = constants.end;
+        constants.end = std::min(longest, constants.first + most_iterations);
+        verbs(verbs.device().run(shade_lists_kernel, {constants.count, buffers, {}, backend::bytes_of(constants)}));
+    } while (constants.end < longest);
+}
+
 Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vector<StageTime> stages,
                                    std::function<void(ShadeListsStd const&)> const& then) {
     Workspace::State& state = on.workspace.state();
@@ -163,8 +172,10 @@ Result<LightingOutput> shade_lists(LightingRun const& on, Verbs& verbs, std::vec
     bool const orthographic = on.frame.view.lens == math::Lens::orthographic;
     math::vec3 const eye = shading_eye(on.frame);
     ShadeListsStd const constants{static_cast<std::uint32_t>(n), l.format == GBufferFormat::f16 ? 1U : 0U, orthographic ? 1U : 0U,
-                                  {eye.x, eye.y, eye.z}};
-    verbs(on.device.run(shade_lists_kernel, {n, buffers, {}, backend::bytes_of(constants)}));
+                                  {eye.x, eye.y, eye.z}, 0, 0};
+    std::uint32_t longest = 0;
+    for (lights::Cell const& cell : l.list_cells) longest = std::max(longest, cell.count);
+    run_shade_lists(verbs, buffers, constants, longest);
     if (then) then(constants);
     auto output = read_image(on, verbs, std::move(stages));
     if (!output) return output;

@@ -143,6 +143,9 @@ struct ComputationCounts {
 /// What the three would count, without shading: a fraction of their time.
 [[nodiscard]] Result<ComputationCounts> count_computations(LightingRun const& on);
 
+/// Records `shade_lists` over lists of up to `longest` lights, in as many runs as that takes.
+void run_shade_lists(Verbs& verbs, std::span<backend::BufferId const> buffers, ShadeListsStd constants, std::uint32_t longest);
+
 /// The lists that samples are shaded by, in a `Lighting`: `list_of_sample`, `list_cells`, `list_indices`.
 ///
 /// expects: `begin_lighting` was called. `then` records what comes after the lists, into the same image.

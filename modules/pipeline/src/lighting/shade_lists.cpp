@@ -6,6 +6,7 @@
 #include "light_kernels.hpp"
 #include "shade_lanes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,6 +28,7 @@ struct Shaded {
     std::span<std::uint32_t const> indices;
     std::span<math::vec3> radiance;
     std::span<std::uint32_t> computations;
+    std::uint32_t begin, end;  ///< Places in lists.
 
     [[nodiscard]] Cell cell(std::uint32_t list) const noexcept { return list != no_list ? cells[list] : Cell{0, 0}; }
 };
@@ -34,12 +36,19 @@ struct Shaded {
 /// Shades samples [first, first + count), count <= N, which share a list.
 template <std::size_t N>
 [[gnu::always_inline]] inline void shade_group(Shaded const& s, std::size_t first, std::size_t count) noexcept {
+    Cell const cell = s.cell(s.list_of[first]);
+    if (s.begin != 0 && cell.count <= s.begin) return;
     SampleLanes<N> lanes;
     lanes.load(s.from, count, [&](std::size_t k) { return first + k; });
     auto const surface = surface_of(lanes, s.from);
     auto sum = lanes_of(lanes.emissive);
-    Cell const cell = s.cell(s.list_of[first]);
-    for (std::uint32_t const index : s.indices.subspan(cell.offset, cell.count)) sum = sum + gn_shade(s.lights[index], surface);
+    if (s.begin != 0) {
+        float held[3][N] = {};
+        for (std::size_t k = 0; k < count; ++k)
+            for (math::axis_t axis = 0; axis < 3; ++axis) held[axis][k] = s.radiance[first + k][axis];
+        sum = lanes_of(held);
+    }
+    for (std::uint32_t const index : s.indices.subspan(cell.offset + s.begin, std::min(s.end, cell.count) - s.begin)) sum = sum + gn_shade(s.lights[index], surface);
     float out[3][N];
     sum.x.v.store(out[0]);
     sum.y.v.store(out[1]);
@@ -75,7 +84,9 @@ void shade(backend::KernelData const& data, std::size_t begin, std::size_t end) 
                    data.buffer<Cell const>(4),
                    data.buffer<std::uint32_t const>(5),
                    data.buffer<math::vec3>(6),
-                   data.buffer<std::uint32_t>(7)};
+                   data.buffer<std::uint32_t>(7),
+                   c.first,
+                   c.end};
 #if GNOMON_VECTOR_EXTENSION && defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) return shade_avx2(s, begin, end);
 #endif

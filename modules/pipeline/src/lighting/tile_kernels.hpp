@@ -5,6 +5,8 @@
 #include <gnomon/backend/kernel.hpp>
 #include <gnomon/lights/hull.hpp>
 
+#include "light_kernels.hpp"
+
 #include <cstdint>
 
 namespace gnomon::pipeline {
@@ -36,10 +38,6 @@ struct ShadeTilesStd {
     std::uint32_t first, end;  ///< Multiples of 8.
 };
 static_assert(sizeof(ShadeTilesStd) == 80);
-
-/// What loops of one invocation may add up to: lavapipe ends them after 65,535 iterations and says nothing, and a device that
-/// takes too long over one is reset. Work is split by it: on the CPU too, for the same calls on every backend.
-inline constexpr std::uint32_t most_iterations = 40960;
 
 /// Lights of one run, so that an invocation, a 64th of a tile's pixels under each of them, stays below that; a multiple of 8.
 [[nodiscard]] constexpr std::uint32_t lights_of_run(std::uint32_t tile_px) noexcept {

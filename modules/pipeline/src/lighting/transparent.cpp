@@ -158,6 +158,7 @@ Result<TransparentOutput> shade_transparent(LightingRun const& on, std::span<mat
     auto const grid = config.clusters ? list_by_cluster(on, l, static_cast<std::uint32_t>(config.tile_px), deepest_of(on.frame, sorted, on.executor))
                                       : list_by_tile(on, l, static_cast<std::uint32_t>(config.tile_px), &ranges);
     if (!grid) return grid.failure();
+    if (auto ok = check_loops(on.device, *grid, 1); !ok) return std::move(ok).failure();
     double const assign_ms = watch.lap_ms();
     stage_lists(verbs, l, *grid);
     std::vector<math::vec4> counted;

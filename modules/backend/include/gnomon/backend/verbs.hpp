@@ -27,6 +27,8 @@ struct Limits {
     std::uint32_t target_layers = 256;
     std::uint64_t target_bytes = std::uint64_t{1} << 32U;  ///< Of all layers of one plane.
     std::uint64_t buffer_bytes = std::uint64_t{1} << 31U;
+    /// What the loops of one invocation of a kernel may add up to. Some drivers end longer ones and say nothing.
+    std::uint32_t loop_rounds = 0xFFFFFFFFU;
 };
 
 /// A stage and how long it took.
