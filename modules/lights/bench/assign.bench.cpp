@@ -64,8 +64,8 @@ void lists_fill_only(benchmark::State& state) {
     std::vector<std::uint16_t> indices(4'000'000);
     double const pairs = static_cast<double>(lights::count_lists(setup.grid, setup.lights, {}, work, cells).written);
     for ([[maybe_unused]] auto _ : state) {
-        benchmark::DoNotOptimize(lights::detail::lay_out(work, cells));
-        lights::fill_lists<std::uint16_t>(work, indices);
+        benchmark::DoNotOptimize(lights::detail::lay_out_scalar(setup.grid.columns, work, cells));
+        lights::detail::fill_scalar<std::uint16_t>(work, indices);
         benchmark::DoNotOptimize(indices.data());
     }
     state.counters["pairs"] = pairs;

@@ -63,11 +63,21 @@ namespace detail {
     return r > 0.0F && r <= max_size_m;
 }
 
-/// Neighbouring clusters of one row that a light touches.
+/// Neighbouring clusters of one row that a light touches: columns `first` to `first + count - 1`.
 struct Run {
-    std::uint32_t cluster;  ///< dense index of the first
+    std::uint32_t row;  ///< of the whole grid: slice * rows + row
+    std::uint32_t first;
     std::uint32_t count;
     std::uint32_t light;
+};
+
+/// Runs by rows, in each row by lights, in arrays that may be read in 32s: for lights that 16 bits can count.
+struct RowRuns {
+    bool used = false;
+    std::uint64_t written = 0;                  ///< the sum of the counts
+    std::vector<std::uint32_t> start;           ///< of each row's runs; one more, their end, and another for the sort
+    std::vector<std::uint32_t> touched;         ///< of each row: a bit a column whose list is not empty, in words
+    std::vector<std::uint16_t> first, count, light;
 };
 
 /// How many clusters a light touches.
@@ -79,7 +89,7 @@ struct LightPairs {
 
 /// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
 struct Workspace {
-    std::vector<float> x, y, depth, radius;  ///< of the points and spots that take part; 8 more may be read
+    std::vector<float> x, y, depth, radius;  ///< of the points and spots that take part; 16 more may be read
     std::vector<float> axis[3], cosine, sine;  ///< of the narrow spots among them; the others have a cosine of -1
     bool cones = false;                      ///< there are such spots
     std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending; padded too
@@ -87,7 +97,9 @@ struct Workspace {
     std::vector<std::uint32_t> others;       ///< directional lights and boxes that take part: they go one by one
     std::vector<Run> runs;                   ///< lists: what each light touches, by lights
     std::size_t run_count = 0;
+    std::uint32_t columns = 0;               ///< lists: of the grid
     std::vector<std::uint32_t> cursors;      ///< lists: how many lights a cluster has, then where its next one goes
+    RowRuns by_rows;                         ///< lists by wide lanes: in the place of `cursors`
     std::vector<LightPairs> pairs;           ///< lists: used where a fixed capacity overflows
 };
 
@@ -111,7 +123,7 @@ inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept 
 /// cost: O(lights)
 [[nodiscard]] inline Report admit(std::span<Light const> lights, std::uint32_t layers, Workspace& work) {
     GNOMON_EXPECT(lights.size() < 0xFFFFFFFFU);
-    std::size_t const padded = lights.size() + 8;
+    std::size_t const padded = lights.size() + 16;
     for (auto* list : {&work.x, &work.y, &work.depth, &work.radius, &work.axis[0], &work.axis[1], &work.axis[2], &work.cosine, &work.sine})
         list->resize(padded);
     work.index.resize(padded);

@@ -48,7 +48,7 @@ namespace detail {
     ListsReport report;
     report.lights = tree.report;
     work.run_count = 0;
-    detail::RunSink sink{work, grid.columns};
+    detail::RunSink sink{work};
     std::vector<std::uint32_t> found(tree.tree.ids.size());
     for (std::uint32_t k = 0; k < grid.slices; ++k)
         for (std::uint32_t j = 0; j < grid.rows; ++j) {
@@ -63,8 +63,8 @@ namespace detail {
             for (std::uint32_t const light : tree.directional) add(light);
         }
     std::sort(work.runs.begin(), work.runs.begin() + static_cast<std::ptrdiff_t>(work.run_count),
-              [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.cluster < b.cluster; });
-    report.needed = report.written = detail::lay_out(work, cells);
+              [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.row < b.row; });
+    report.needed = report.written = detail::lay_out(grid, lights.size(), true, work, cells);
     GNOMON_EXPECT(report.needed <= 0xFFFFFFFFU);
     return report;
 }

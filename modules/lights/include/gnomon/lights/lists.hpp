@@ -8,6 +8,7 @@
 #include <gnomon/core/contract.hpp>
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/detail/list_cells.hpp>
 #include <gnomon/lights/detail/list_rows.hpp>
 #include <gnomon/lights/light.hpp>
 
@@ -44,9 +45,11 @@ struct ListsReport {
 namespace detail {
 
 /// Adds 1 to the count of each cluster of each run.
-inline void count_runs(std::span<Run const> runs, std::uint32_t* counts) noexcept {
-    for (Run const& run : runs)
-        for (std::uint32_t i = 0; i < run.count; ++i) ++counts[run.cluster + i];
+inline void count_runs(std::span<Run const> runs, std::uint32_t columns, std::uint32_t* counts) noexcept {
+    for (Run const& run : runs) {
+        std::uint32_t* const of_run = counts + std::size_t{run.row} * columns + run.first;
+        for (std::uint32_t i = 0; i < run.count; ++i) ++of_run[i];
+    }
 }
 
 /// Cells out of counts, whose list becomes that of the offsets. returns: the sum.
@@ -62,10 +65,27 @@ inline std::uint64_t make_cells(std::span<std::uint32_t> counts, std::span<Cell>
 }
 
 /// Cells and cursors out of runs. returns: the sum of the counts; above 2^32 - 1 the offsets are no use.
-inline std::uint64_t lay_out(Workspace& work, std::span<Cell> cells) {
+inline std::uint64_t lay_out_scalar(std::uint32_t columns, Workspace& work, std::span<Cell> cells) {
+    work.by_rows.used = false;
+    work.columns = columns;
     work.cursors.assign(cells.size(), 0);
-    count_runs({work.runs.data(), work.run_count}, work.cursors.data());
+    count_runs({work.runs.data(), work.run_count}, columns, work.cursors.data());
     return make_cells(work.cursors, cells);
+}
+
+/// The same cells by lanes where there are any, for what 16 bits can count.
+inline std::uint64_t lay_out(cull::RowGrid const& grid, std::size_t lights, bool lanes, Workspace& work, std::span<Cell> cells) {
+#if GNOMON_CULL_AVX2
+    if (lanes && lights <= 0xFFFFU && grid.columns <= 0x8000U && cull::detail::has_wide_lanes()) {
+        std::size_t const rows = std::size_t{grid.rows} * grid.slices;
+        work.by_rows.used = true;
+        sort_by_rows({work.runs.data(), work.run_count}, rows, work.by_rows);
+        cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<unsigned char*>(cells.data()));
+        return work.by_rows.written;
+    }
+#endif
+    (void)lights, (void)lanes;
+    return lay_out_scalar(grid.columns, work, cells);
 }
 
 /// Sorts `pairs` least important first, of the same importance the last light first, and says how many go until the others
@@ -119,14 +139,33 @@ inline std::uint32_t leave_out(std::span<Light const> lights, std::uint64_t need
     ListsReport report;
     report.lights = admit(lights, config.layers, work);
     detail::find_runs(grid, lights, work, config.lanes);
-    report.needed = report.written = detail::lay_out(work, cells);
+    report.needed = report.written = detail::lay_out(grid, lights.size(), config.lanes, work, cells);
     std::uint64_t const capacity = std::min<std::uint64_t>(config.capacity, 0xFFFFFFFFU);
     if (report.needed > capacity) {
         report.left_out = detail::leave_out(lights, report.needed, capacity, work, report.written);
-        (void)detail::lay_out(work, cells);
+        (void)detail::lay_out(grid, lights.size(), config.lanes, work, cells);
     }
     return report;
 }
+
+namespace detail {
+
+template <std::unsigned_integral Index>
+void fill_scalar(Workspace& work, std::span<Index> indices) noexcept {
+    std::uint32_t* const cursors = work.cursors.data();
+    for (std::size_t r = 0; r < work.run_count; ++r) {
+        Run const run = work.runs[r];
+        GNOMON_EXPECT(run.light <= std::numeric_limits<Index>::max());
+        std::uint32_t* const of_run = cursors + std::size_t{run.row} * work.columns + run.first;
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            std::uint32_t const at = of_run[i]++;
+            GNOMON_EXPECT(at < indices.size());
+            indices[at] = static_cast<Index>(run.light);
+        }
+    }
+}
+
+}  // namespace detail
 
 /// Writes the lists that `count_lists` counted; uint16_t holds the indices of up to 65,536 lights.
 ///
@@ -134,16 +173,14 @@ inline std::uint32_t leave_out(std::span<Light const> lights, std::uint64_t need
 /// cost:    O(pairs)
 template <std::unsigned_integral Index>
 void fill_lists(Workspace& work, std::span<Index> indices) noexcept {
-    std::uint32_t* const cursors = work.cursors.data();
-    for (std::size_t r = 0; r < work.run_count; ++r) {
-        Run const run = work.runs[r];
-        GNOMON_EXPECT(run.light <= std::numeric_limits<Index>::max());
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            std::uint32_t const at = cursors[run.cluster + i]++;
-            GNOMON_EXPECT(at < indices.size());
-            indices[at] = static_cast<Index>(run.light);
-        }
+#if GNOMON_CULL_AVX2
+    if (work.by_rows.used) {
+        GNOMON_EXPECT(work.by_rows.written <= indices.size());
+        detail::fill_by_rows(work.by_rows, indices.data());
+        return;
     }
+#endif
+    detail::fill_scalar(work, indices);
 }
 
 }  // namespace gnomon::lights

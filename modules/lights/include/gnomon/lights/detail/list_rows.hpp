@@ -4,6 +4,7 @@
 #include <gnomon/cull/detail/rows_avx2.hpp>
 #include <gnomon/cull/rows.hpp>
 #include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/detail/list_stream.hpp>
 #include <gnomon/lights/detail/scalar.hpp>
 
 #include <algorithm>
@@ -16,13 +17,12 @@ namespace gnomon::lights::detail {
 
 struct RunSink {
     Workspace& work;
-    std::uint32_t columns;
     std::uint32_t index = 0;
 
     void light(std::uint32_t i) noexcept { index = i; }
     void row(std::uint32_t row, cull::Columns const& run) {
         if (work.run_count == work.runs.size()) work.runs.resize(2 * work.runs.size() + 1024);
-        work.runs[work.run_count++] = {row * columns + run.first, run.count(), index};
+        work.runs[work.run_count++] = {row, run.first, run.count(), index};
     }
 };
 
@@ -44,8 +44,7 @@ struct RunSink8 {
     std::uint32_t from = 0, past = 0, light = 0;
 
     GNOMON_ROWS_INLINE void eight(std::size_t n, cull::detail::Ready8 const& b) noexcept {
-        cull::detail::I8 const rows = b.slices.first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.rows.first;
-        cull::detail::store(origin, rows * cull::detail::all(static_cast<std::int32_t>(grid.columns)) + b.columns.first);
+        cull::detail::store(origin, b.slices.first * cull::detail::all(static_cast<std::int32_t>(grid.rows)) + b.rows.first);
         cull::detail::store(reinterpret_cast<std::int32_t*>(first), b.columns.first);
         for (std::uint32_t& c : counts) c = 0;
         index = work.index.data() + n;
@@ -64,8 +63,8 @@ struct RunSink8 {
     }
     GNOMON_ROWS_INLINE void small_row(std::uint32_t lane, std::uint32_t slice, std::uint32_t row, float low, float high) noexcept {
         std::uint32_t const in = touched(first[lane], _mm256_set1_ps(low), _mm256_set1_ps(high));
-        std::uint32_t const at = static_cast<std::uint32_t>(origin[lane]) + (slice * grid.rows + row) * grid.columns;
-        small[lane][counts[lane]] = {at + static_cast<std::uint32_t>(_tzcnt_u32(in)), static_cast<std::uint32_t>(_mm_popcnt_u32(in)), index[lane]};
+        std::uint32_t const at = static_cast<std::uint32_t>(origin[lane]) + slice * grid.rows + row;
+        small[lane][counts[lane]] = {at, first[lane] + static_cast<std::uint32_t>(_tzcnt_u32(in)), static_cast<std::uint32_t>(_mm_popcnt_u32(in)), index[lane]};
         counts[lane] += in != 0 ? 1 : 0;
     }
     GNOMON_ROWS_INLINE void flush(std::uint32_t lanes) noexcept {
@@ -81,7 +80,7 @@ struct RunSink8 {
     }
     GNOMON_ROWS_INLINE void large_row(std::uint32_t slice, std::uint32_t row, float low, float high) noexcept {
         __m256 const l = _mm256_set1_ps(low), h = _mm256_set1_ps(high);
-        std::uint32_t const start = from, end = past, columns = (slice * grid.rows + row) * grid.columns;
+        std::uint32_t const start = from, end = past;
         std::uint32_t begin = end, count = 0;
         if (end - start <= 64) {
             std::uint64_t in = 0;
@@ -96,7 +95,7 @@ struct RunSink8 {
                 count += static_cast<std::uint32_t>(_mm_popcnt_u32(in));
             }
         }
-        *next = {columns + begin, count, light};
+        *next = {slice * grid.rows + row, begin, count, light};
         next += count != 0 ? 1 : 0;
     }
     GNOMON_ROWS_INLINE void done() noexcept { flush(8); }
@@ -122,6 +121,10 @@ GNOMON_ROWS_TARGET_32 void find_runs_32(cull::RowGrid const& grid, Workspace& wo
 
 inline bool find_runs_lanes(cull::RowGrid const& grid, Workspace& work) {
 #if GNOMON_CULL_AVX2
+    if (!work.cones && cull::detail::has_stream(grid)) {
+        find_ball_runs(grid, work);
+        return true;
+    }
     if (cull::detail::has_avx2()) {
         bool const wide = cull::detail::has_32_registers();
         if (grid.perspective) (wide ? find_runs_32<true> : find_runs_avx2<true>)(grid, work);
@@ -136,12 +139,12 @@ inline bool find_runs_lanes(cull::RowGrid const& grid, Workspace& work) {
 /// Fills `work.runs` with what every light that takes part touches, by lights.
 inline void find_runs(cull::RowGrid const& grid, std::span<Light const> lights, Workspace& work, bool lanes) {
     work.run_count = 0;
-    RunSink sink{work, grid.columns};
+    RunSink sink{work};
     if (!lanes || !find_runs_lanes(grid, work)) scatter_scalar(grid, lights, {work.index.data(), work.count}, sink);
     if (work.others.empty()) return;
     scatter_scalar(grid, lights, work.others, sink);
     std::sort(work.runs.begin(), work.runs.begin() + static_cast<std::ptrdiff_t>(work.run_count),
-              [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.cluster < b.cluster; });
+              [](Run const& a, Run const& b) { return a.light != b.light ? a.light < b.light : a.row < b.row; });
 }
 
 }  // namespace gnomon::lights::detail

@@ -1,0 +1,64 @@
+#pragma once
+// Runs of balls from wide lanes: what a stream cuts, packed.
+
+#include <gnomon/cull/detail/stream_avx512.hpp>
+#include <gnomon/lights/admit.hpp>
+#include <gnomon/lights/detail/scalar.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon::lights::detail {
+
+#if GNOMON_CULL_AVX2
+GNOMON_WIDE_BEGIN
+
+struct RunSink16 {
+    Workspace& work;
+    Run* next = nullptr;
+    cull::detail::I16 lights{};
+
+    void reserve(std::size_t more) {
+        close();
+        if (work.runs.size() < work.run_count + more + 16) work.runs.resize(2 * work.runs.size() + more + 16);
+        next = work.runs.data() + work.run_count;
+    }
+    void close() noexcept {
+        if (next != nullptr) work.run_count = static_cast<std::size_t>(next - work.runs.data());
+    }
+    GNOMON_WIDE_INLINE void sixteen(std::size_t n) noexcept { lights = cull::detail::wide_load(work.index.data() + n); }
+    GNOMON_WIDE_INLINE void rows(cull::detail::Rows16 const& r) noexcept {
+        // From four vectors to sixteen runs: packed into the order in which the unpacking of pairs gives runs 0 to 3, 4 to 7, ...
+        __m512i const order = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+        auto const pack = [&](cull::detail::I16 a) __attribute__((target(GNOMON_WIDE_ISA))) {
+            return _mm512_permutexvar_epi32(order, cull::detail::packed(r.some, a).v);
+        };
+        __m512i const row = pack(r.row), first = pack(r.first), count = pack(r.count);
+        __m512i const light = pack({_mm512_permutexvar_epi32(r.ball.v, lights.v)});
+        __m512i const places = _mm512_unpacklo_epi32(row, first), more_places = _mm512_unpackhi_epi32(row, first);
+        __m512i const rest = _mm512_unpacklo_epi32(count, light), more_rest = _mm512_unpackhi_epi32(count, light);
+        _mm512_storeu_si512(next, _mm512_unpacklo_epi64(places, rest));
+        _mm512_storeu_si512(next + 4, _mm512_unpackhi_epi64(places, rest));
+        _mm512_storeu_si512(next + 8, _mm512_unpacklo_epi64(more_places, more_rest));
+        _mm512_storeu_si512(next + 12, _mm512_unpackhi_epi64(more_places, more_rest));
+        next += std::popcount(static_cast<unsigned>(r.some.v));
+    }
+};
+
+template <bool perspective, bool small>
+GNOMON_WIDE_TARGET void find_ball_runs(cull::RowGrid const& grid, Workspace& work) {
+    RunSink16 sink{work};
+    cull::detail::visit_stream<perspective, small>(grid, input_of(work), work.count, sink);
+    sink.close();
+}
+inline void find_ball_runs(cull::RowGrid const& grid, Workspace& work) {
+    bool const small = cull::detail::has_small_tables(grid);
+    if (grid.perspective) (small ? find_ball_runs<true, true> : find_ball_runs<true, false>)(grid, work);
+    else (small ? find_ball_runs<false, true> : find_ball_runs<false, false>)(grid, work);
+}
+
+GNOMON_WIDE_END
+#endif
+
+}  // namespace gnomon::lights::detail
