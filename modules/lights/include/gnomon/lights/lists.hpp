@@ -80,8 +80,8 @@ inline std::uint64_t lay_out(cull::RowGrid const& grid, std::size_t lights, bool
         std::size_t const rows = std::size_t{grid.rows} * grid.slices;
         work.by_rows.used = true;
         sort_by_rows({work.runs.data(), work.run_count}, rows, work.by_rows);
-        cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<unsigned char*>(cells.data()));
-        return work.by_rows.written;
+        cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
+        return work.by_rows.offset[rows];
     }
 #endif
     (void)lights, (void)lanes;
@@ -175,7 +175,7 @@ template <std::unsigned_integral Index>
 void fill_lists(Workspace& work, std::span<Index> indices) noexcept {
 #if GNOMON_CULL_AVX2
     if (work.by_rows.used) {
-        GNOMON_EXPECT(work.by_rows.written <= indices.size());
+        GNOMON_EXPECT(work.by_rows.offset.back() <= indices.size());
         detail::fill_by_rows(work.by_rows, indices.data());
         return;
     }

@@ -50,12 +50,15 @@ GNOMON_WIDE_INLINE F16 operator+(F16 a, F16 b) noexcept { return {_mm512_add_ps(
 GNOMON_WIDE_INLINE F16 operator-(F16 a, F16 b) noexcept { return {_mm512_sub_ps(a.v, b.v)}; }
 GNOMON_WIDE_INLINE F16 operator*(F16 a, F16 b) noexcept { return {_mm512_mul_ps(a.v, b.v)}; }
 GNOMON_WIDE_INLINE F16 operator/(F16 a, F16 b) noexcept { return {_mm512_div_ps(a.v, b.v)}; }
+GNOMON_WIDE_INLINE F16 magnitude(F16 a) noexcept { return {_mm512_abs_ps(a.v)}; }
 GNOMON_WIDE_INLINE F16 root(F16 a) noexcept { return {_mm512_sqrt_ps(a.v)}; }
 GNOMON_WIDE_INLINE F16 least(F16 a, F16 b) noexcept { return {_mm512_min_ps(b.v, a.v)}; }
 GNOMON_WIDE_INLINE F16 greatest(F16 a, F16 b) noexcept { return {_mm512_max_ps(b.v, a.v)}; }
 GNOMON_WIDE_INLINE M16 operator<=(F16 a, F16 b) noexcept { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; }
 GNOMON_WIDE_INLINE M16 operator>=(F16 a, F16 b) noexcept { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
 GNOMON_WIDE_INLINE M16 operator<(F16 a, F16 b) noexcept { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
+GNOMON_WIDE_INLINE M16 operator>(F16 a, F16 b) noexcept { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ)}; }
+GNOMON_WIDE_INLINE M16 operator|(M16 a, M16 b) noexcept { return {static_cast<__mmask16>(a.v | b.v)}; }
 GNOMON_WIDE_INLINE M16 operator&(M16 a, M16 b) noexcept { return {static_cast<__mmask16>(a.v & b.v)}; }
 GNOMON_WIDE_INLINE M16 and_not(M16 a, M16 b) noexcept { return {static_cast<__mmask16>(a.v & ~b.v)}; }  ///< a and not b
 GNOMON_WIDE_INLINE F16 select(M16 mask, F16 yes, F16 no) noexcept { return {_mm512_mask_blend_ps(mask.v, no.v, yes.v)}; }
@@ -76,13 +79,17 @@ template <unsigned places>
 GNOMON_WIDE_INLINE I16 shift_right(I16 a) noexcept { return {_mm512_srli_epi32(a.v, places)}; }
 GNOMON_WIDE_INLINE M16 operator==(I16 a, I16 b) noexcept { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 GNOMON_WIDE_INLINE M16 operator<(I16 a, I16 b) noexcept { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
+GNOMON_WIDE_INLINE M16 operator<=(I16 a, I16 b) noexcept { return {_mm512_cmple_epu32_mask(a.v, b.v)}; }
+GNOMON_WIDE_INLINE I16 least(I16 a, I16 b) noexcept { return {_mm512_min_epu32(a.v, b.v)}; }
+/// a + 1 where the mask is set.
+GNOMON_WIDE_INLINE I16 add_one(I16 a, M16 mask) noexcept { return {_mm512_mask_add_epi32(a.v, mask.v, a.v, _mm512_set1_epi32(1))}; }
+/// a - 1, at least 0.
+GNOMON_WIDE_INLINE I16 one_less(I16 a) noexcept { return {_mm512_sub_epi32(_mm512_max_epu32(a.v, _mm512_set1_epi32(1)), _mm512_set1_epi32(1))}; }
 /// The mask's lanes to the front.
 GNOMON_WIDE_INLINE I16 packed(M16 mask, I16 a) noexcept { return {_mm512_maskz_compress_epi32(mask.v, a.v)}; }
-/// Lanes at sixteen numbers: an index's lower four bits count.
-GNOMON_WIDE_INLINE F16 lookup(float const (&from)[16], I16 at) noexcept { return {_mm512_permutexvar_ps(at.v, _mm512_load_ps(from))}; }
-GNOMON_WIDE_INLINE I16 lookup(std::uint32_t const (&from)[16], I16 at) noexcept {
-    return {_mm512_permutexvar_epi32(at.v, _mm512_load_si512(from))};
-}
+/// The lanes at indices, of which the lower four bits count.
+GNOMON_WIDE_INLINE F16 lookup(F16 from, I16 at) noexcept { return {_mm512_permutexvar_ps(at.v, from.v)}; }
+GNOMON_WIDE_INLINE I16 lookup(I16 from, I16 at) noexcept { return {_mm512_permutexvar_epi32(at.v, from.v)}; }
 
 /// A list of numbers to look up: where it is small, in two registers, with what lies behind it.
 struct Table16 {
@@ -104,12 +111,13 @@ GNOMON_WIDE_INLINE F16 lookup(Table16 const& t, I16 at) noexcept {
 template <bool small, bool or_equal>
 GNOMON_WIDE_INLINE I16 count_below(Table16 const& t, F16 x) noexcept {
     I16 n = wide(0U);
-    for (std::uint32_t step = std::bit_floor(t.count); step > 0; step /= 2) {
-        I16 const next = n + wide(step);
-        F16 const number = lookup<small>(t, I16{small ? next.v : _mm512_min_epu32(next.v, wide(t.count).v)} - wide(1U));
-        M16 below = or_equal ? number <= x : number < x;
-        if constexpr (!small) below.v = _mm512_mask_cmple_epu32_mask(below.v, next.v, wide(t.count).v);
-        n.v = _mm512_mask_mov_epi32(n.v, below.v, next.v);
+#pragma GCC unroll 5
+    for (std::uint32_t step = small ? 16 : std::bit_floor(t.count); step > 0; step /= 2) {
+        I16 at = n + wide(step - 1);
+        __mmask16 const within = small ? 0xFFFFU : _mm512_cmplt_epu32_mask(at.v, wide(t.count).v);
+        if constexpr (!small) at.v = _mm512_maskz_mov_epi32(within, at.v);
+        F16 const number = lookup<small>(t, at);
+        n.v = _mm512_mask_add_epi32(n.v, (or_equal ? number <= x : number < x).v & within, n.v, wide(step).v);
     }
     return n;
 }

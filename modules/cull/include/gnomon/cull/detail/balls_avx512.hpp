@@ -4,7 +4,7 @@
 // A lane is a ball, a slice and a border between rows; its right neighbour is the border below, and the two give the row.
 
 #include <gnomon/cull/detail/avx512.hpp>
-#include <gnomon/cull/detail/ready_avx2.hpp>
+#include <gnomon/cull/rows.hpp>
 
 #if GNOMON_CULL_AVX2
 
@@ -27,11 +27,12 @@ struct Cut16 {
     Span16 cap, corner;
 };
 
-/// Of sixteen balls, what their rows look up.
-struct alignas(64) Balls16 {
-    float x[16], y[16], depth[16], radius_sq[16], tangent[16];
-    float cap_low[16], cap_high[16], cap_low_at[16], cap_high_at[16], cap_unit[16], cap_low_scale[16], cap_high_scale[16];
-    float x_low[16], x_high[16];
+/// GnReadyBall
+struct Balls16 {
+    F16 x, y, depth, radius_sq, tangent;
+    Arc16 cap;
+    F16 cap_low_scale, cap_high_scale;
+    Span16 x_bounds, y_bounds;
 };
 
 /// The grid's tables.
@@ -58,17 +59,60 @@ GNOMON_WIDE_INLINE Span16 corner(F16 x, F16 left, F16 inverse) noexcept {
     return {select(any, (x - s) * inverse, far), select(any, (x + s) * inverse, zero - far)};
 }
 
+struct Border16 {
+    F16 y, secant, cosine;
+};
+
+/// gn_arc_of
+GNOMON_WIDE_INLINE Arc16 arc_of(F16 x, F16 w, F16 rest, F16 tangent, Border16 const& border) noexcept {
+    F16 const rho = root(greatest(rest, wide(0.0F)));
+    F16 const along = tangent * w, across = rho * x, side = tangent * x, lift = rho * w;
+    F16 const high_w = along - across, low_w = along + across, short_tangent = tangent * border.cosine;
+    return {{(side - lift) / low_w * border.secant, (side + lift) / high_w * border.secant}, short_tangent * low_w, short_tangent * high_w,
+            tangent * tangent + rho * rho, rest};
+}
+
+/// gn_flat_arc_of
+GNOMON_WIDE_INLINE Arc16 flat_arc_of(F16 x, F16 depth, F16 rest) noexcept {
+    F16 const rho = root(greatest(rest, wide(0.0F)));
+    return {{x - rho, x + rho}, depth, depth, wide(1.0F), rest};
+}
+
 /// gn_border_arc
 template <bool perspective>
-GNOMON_WIDE_INLINE Arc16 border_arc(F16 x, F16 y, F16 depth, F16 radius_sq, F16 tangent, F16 border_y, F16 secant, F16 cosine) noexcept {
-    F16 const off = perspective ? (y - border_y * depth) * cosine : y - border_y;
-    F16 const rest = radius_sq - off * off, rho = root(greatest(rest, wide(0.0F)));
-    if constexpr (!perspective) return {{x - rho, x + rho}, depth, depth, wide(1.0F), rest};
-    F16 const w = (y * border_y + depth) * cosine;
-    F16 const along = tangent * w, across = rho * x, side = tangent * x, lift = rho * w;
-    F16 const high_w = along - across, low_w = along + across, short_tangent = tangent * cosine;
-    return {{(side - lift) / low_w * secant, (side + lift) / high_w * secant}, short_tangent * low_w, short_tangent * high_w,
-            tangent * tangent + rho * rho, rest};
+GNOMON_WIDE_INLINE Arc16 border_arc(F16 x, F16 y, F16 depth, F16 radius_sq, F16 tangent, Border16 const& border) noexcept {
+    F16 const off = perspective ? (y - border.y * depth) * border.cosine : y - border.y, rest = radius_sq - off * off;
+    if constexpr (!perspective) return flat_arc_of(x, depth, rest);
+    return arc_of(x, (y * border.y + depth) * border.cosine, rest, tangent, border);
+}
+
+/// gn_cap_arc
+template <bool perspective>
+GNOMON_WIDE_INLINE Arc16 cap_arc(F16 x, F16 depth, F16 radius_sq) noexcept {
+    if constexpr (!perspective) return flat_arc_of(x, depth, radius_sq);
+    F16 const rest = x * x + depth * depth - radius_sq, zero = wide(0.0F), one = wide(1.0F);
+    return arc_of(x, depth, radius_sq, root(greatest(rest, zero)), {zero, one, one});
+}
+
+/// gn_ready_ball
+template <bool perspective>
+GNOMON_WIDE_INLINE void make_ready(F16 x, F16 y, F16 depth, F16 given, Balls16& b) noexcept {
+    F16 const radius = given + (magnitude(x) + magnitude(y) + magnitude(depth) + given) * wide(1.9073486328125e-6F), radius_sq = radius * radius;
+    F16 const far = wide(formula::gn_far()), zero = wide(0.0F);
+    b.x = x, b.y = y, b.depth = depth, b.radius_sq = radius_sq;
+    b.tangent = root(greatest(x * x + y * y + depth * depth - radius_sq, zero));
+    b.cap = cap_arc<perspective>(x, depth, radius_sq);
+    b.cap_low_scale = b.cap_high_scale = wide(1.0F);
+    b.y_bounds = {y - radius, y + radius};
+    b.x_bounds = b.cap.span;
+    if constexpr (perspective) {
+        M16 const bounded = depth > wide(1.125F) * radius;
+        Span16 const y_bounds = cap_arc<true>(y, depth, radius_sq).span;
+        b.cap_low_scale = b.cap.low_at / b.cap.unit;
+        b.cap_high_scale = b.cap.high_at / b.cap.unit;
+        b.x_bounds = {select(bounded, b.x_bounds.low, zero - far), select(bounded, b.x_bounds.high, far)};
+        b.y_bounds = {select(bounded, y_bounds.low, zero - far), select(bounded, y_bounds.high, far)};
+    }
 }
 
 /// gn_plane_cut and gn_border_corner
@@ -90,19 +134,19 @@ GNOMON_WIDE_INLINE Span16 within(Arc16 const& arc, Cut16 const& near, Cut16 cons
 
 /// gn_slice_cap, gn_joined, and the bounds of the whole ball.
 GNOMON_WIDE_INLINE Span16 join(Balls16 const& b, I16 ball, F16 y, F16 border_y, Span16 const& top, Cut16 const& near, Cut16 const& far) noexcept {
-    F16 const unit = lookup(b.cap_unit, ball), near_at = near.depth * unit, far_at = far.depth * unit, next_y = next_lane(border_y);
-    F16 const low_at = lookup(b.cap_low_at, ball), high_at = lookup(b.cap_high_at, ball);
+    F16 const unit = lookup(b.cap.unit, ball), near_at = near.depth * unit, far_at = far.depth * unit, next_y = next_lane(border_y);
+    F16 const low_at = lookup(b.cap.low_at, ball), high_at = lookup(b.cap.high_at, ball);
     M16 const low_near = near.crosses & (low_at <= near_at), low_far = far.crosses & (low_at >= far_at);
     M16 const high_near = near.crosses & (high_at <= near_at), high_far = far.crosses & (high_at >= far_at);
-    F16 const cap_low = select(low_near, near.cap.low, select(low_far, far.cap.low, lookup(b.cap_low, ball)));
-    F16 const cap_high = select(high_near, near.cap.high, select(high_far, far.cap.high, lookup(b.cap_high, ball)));
+    F16 const cap_low = select(low_near, near.cap.low, select(low_far, far.cap.low, lookup(b.cap.span.low, ball)));
+    F16 const cap_high = select(high_near, near.cap.high, select(high_far, far.cap.high, lookup(b.cap.span.high, ball)));
     F16 const low_scale = select(low_near, near.scale, select(low_far, far.scale, lookup(b.cap_low_scale, ball)));
     F16 const high_scale = select(high_near, near.scale, select(high_far, far.scale, lookup(b.cap_high_scale, ball)));
     M16 const low_in = and_not(border_y * low_scale <= y, next_y * low_scale <= y);
     M16 const high_in = and_not(border_y * high_scale <= y, next_y * high_scale <= y);
     F16 const low = least(top.low, next_lane(top.low)), high = greatest(top.high, next_lane(top.high));
-    return {greatest(select(low_in, least(low, cap_low), low), lookup(b.x_low, ball)),
-            least(select(high_in, greatest(high, cap_high), high), lookup(b.x_high, ball))};
+    return {greatest(select(low_in, least(low, cap_low), low), lookup(b.x_bounds.low, ball)),
+            least(select(high_in, greatest(high, cap_high), high), lookup(b.x_bounds.high, ball))};
 }
 
 /// The span of each lane's row.
@@ -113,8 +157,8 @@ GNOMON_WIDE_INLINE Span16 row_spans(Tables16 const& t, Balls16 const& b, Lanes16
     I16 const far_slice = at.slice + wide(1U);
     Cut16 const near = cut_of<perspective>(x, y, depth, radius_sq, border_y, lookup<small>(t.depth_m, at.slice), lookup<small>(t.inverse, at.slice));
     Cut16 const far = cut_of<perspective>(x, y, depth, radius_sq, border_y, lookup<small>(t.depth_m, far_slice), lookup<small>(t.inverse, far_slice));
-    Arc16 const arc = border_arc<perspective>(x, y, depth, radius_sq, lookup(b.tangent, at.ball), border_y,
-                                              lookup<small>(t.secant, at.border), lookup<small>(t.cosine, at.border));
+    Arc16 const arc = border_arc<perspective>(x, y, depth, radius_sq, lookup(b.tangent, at.ball),
+                                              {border_y, lookup<small>(t.secant, at.border), lookup<small>(t.cosine, at.border)});
     return join(b, at.ball, y, border_y, within(arc, near, far), near, far);
 }
 

@@ -10,12 +10,20 @@
 
 namespace gnomon::cull::detail {
 
-/// Elements: the ball in 4 bits, the border in 10, the slice in 18.
+/// Sixteen balls and their stream. Elements: the ball in 4 bits, the border in 10, the slice in 18.
 struct Stream16 {
-    static constexpr std::uint32_t capacity = 4096, next_border = 16, most_rows = 1023, most_slices = 1U << 18U;
+    static constexpr std::uint32_t capacity = 1024, next_border = 16, next_slice = 1U << 14U, most_rows = 1023, most_slices = 1U << 18U;
 
+    std::size_t from = 0;
+    Balls16 balls;
     std::uint32_t count = 0;
     alignas(64) std::uint32_t at[capacity + 48];
+};
+
+/// Of each sixteen of a stream.
+struct Spans16 {
+    alignas(64) float low[(Stream16::capacity / 15 + 1) * 16];
+    alignas(64) float high[(Stream16::capacity / 15 + 1) * 16];
 };
 
 /// Whether sixteen lanes are there, and a grid's rows and slices have the bits.
@@ -32,71 +40,95 @@ struct Rows16 {
     M16 some;
 };
 
-struct alignas(64) Reach16 {
-    std::int32_t slice_first[16], slice_last[16], row_first[16], row_last[16];
+/// Which slices and borders each of sixteen balls may reach: the last is that below its last row.
+struct Reach16 {
+    alignas(64) std::uint32_t slice[16];
+    alignas(64) std::uint32_t slice_end[16];
+    alignas(64) std::uint32_t border[16];
+    alignas(64) std::uint32_t border_end[16];
+    M16 any;
 };
 
-/// What eight balls give to lanes `from` and on. returns: which of them reach the grid.
-template <bool perspective>
-GNOMON_WIDE_INLINE std::uint32_t ready_eight(RowGrid const& g, Input const& in, std::size_t n, std::uint32_t from, Balls16& b, Reach16& reach) noexcept {
-    Ready8 r;
-    make_ready<perspective>(load(in.x + n), load(in.y + n), load(in.depth + n), load(in.radius + n), r);
-    find_reach(g, r);
-    F8 const* const parts[] = {&r.x, &r.y, &r.depth, &r.radius_sq, &r.tangent, &r.cap.span.low, &r.cap.span.high, &r.cap.low_at, &r.cap.high_at,
-                               &r.cap.unit, &r.cap_low_scale, &r.cap_high_scale, &r.x_bounds.low, &r.x_bounds.high};
-    float(*const to[])[16] = {&b.x, &b.y, &b.depth, &b.radius_sq, &b.tangent, &b.cap_low, &b.cap_high, &b.cap_low_at, &b.cap_high_at,
-                              &b.cap_unit, &b.cap_low_scale, &b.cap_high_scale, &b.x_low, &b.x_high};
-#pragma GCC unroll 14
-    for (int i = 0; i < 14; ++i) store(*to[i] + from, *parts[i]);
-    store(reach.slice_first + from, r.slices.first);
-    store(reach.slice_last + from, r.slices.last);
-    store(reach.row_first + from, r.rows.first);
-    store(reach.row_last + from, r.rows.last);
-    return bits_of(r.reaches) << from;
+template <bool small>
+GNOMON_WIDE_INLINE void find_reach(Tables16 const& t, Balls16 const& b, Reach16& reach) noexcept {
+    // gn_in_slice, by counting planes: those in front of the centre that miss the ball, and those that are there or cross it.
+    I16 missed = wide(0U), before = wide(0U);
+    for (std::uint32_t k = 0; k < t.depth_m.count; ++k) {
+        F16 const at = wide(t.depth_m.numbers[k]), off = at - b.depth;
+        M16 const crosses = b.radius_sq - off * off >= wide(0.0F), front = at <= b.depth;
+        missed = add_one(missed, and_not(front, crosses));
+        before = add_one(before, front | crosses);
+    }
+    I16 const slices = wide(t.depth_m.count - 1), rows = wide(t.y.count - 1);
+    // gn_in_row
+    I16 const top = one_less(count_below<small, false>(t.y, b.y_bounds.low)), bottom = least(count_below<small, true>(t.y, b.y_bounds.high), rows);
+    F16 const left = wide(t.left.numbers[0]), right = wide(t.right.numbers[t.right.count - 1]);
+    reach.any = ((missed < before) | (wide(0U) < before & before <= slices)) & (top < bottom) & (left <= b.x_bounds.high) & (b.x_bounds.low <= right);
+    wide_store(reach.slice, one_less(missed));
+    wide_store(reach.slice_end, least(before, slices));
+    wide_store(reach.border, top);
+    wide_store(reach.border_end, bottom + wide(1U));
 }
 
-/// Cuts what the stream has, and empties it: `sink.reserve(n)`, then `sink.rows` of at most n rows in the stream's order.
+GNOMON_WIDE_INLINE Lanes16 lanes_at(Stream16 const& stream, std::uint32_t i) noexcept {
+    I16 const at = wide_load(stream.at + i);
+    return {at, shift_right<4>(at) & wide(Stream16::most_rows), shift_right<14>(at)};
+}
+
+/// Cuts what a stream has, and empties it: `sink.sixteen(from, most)`, then `sink.rows` in the stream's order.
 template <bool perspective, bool small, class Sink>
-GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, Balls16 const& b, Stream16& stream, Sink& sink) noexcept {
+GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, Stream16& stream, Spans16& spans, Sink& sink) noexcept {
     wide_store(stream.at + stream.count, wide(0U));  // no border below
     wide_store(stream.at + stream.count + 16, wide(0U));
-    sink.reserve(stream.count);
-    for (std::uint32_t i = 0; i + 1 < stream.count; i += 15) {
-        I16 const at = wide_load(stream.at + i);
-        M16 const has_row = M16{0x7FFF} & (wide_load(stream.at + i + 1) == at + wide(Stream16::next_border));
-        Lanes16 const lanes{at, shift_right<4>(at) & wide(Stream16::most_rows), shift_right<14>(at)};
-        Span16 const span = row_spans<perspective, small>(t, b, lanes);
+    // In two turns, so that more of each are under way at once: a span and its columns are one long chain of instructions.
+    float *low = spans.low, *high = spans.high;
+    for (std::uint32_t i = 0; i + 1 < stream.count; i += 15, low += 16, high += 16) {
+        Span16 const span = row_spans<perspective, small>(t, stream.balls, lanes_at(stream, i));
+        _mm512_store_ps(low, span.low.v);
+        _mm512_store_ps(high, span.high.v);
+    }
+    sink.sixteen(stream.from, stream.count);
+    low = spans.low, high = spans.high;
+    for (std::uint32_t i = 0; i + 1 < stream.count; i += 15, low += 16, high += 16) {
+        Lanes16 const lanes = lanes_at(stream, i);
+        Span16 const span{wide_load(low), wide_load(high)};
+        M16 const has_row = M16{0x7FFF} & (wide_load(stream.at + i + 1) == lanes.ball + wide(Stream16::next_border));
         I16 const first = count_below<small, false>(t.right, span.low), end = count_below<small, true>(t.left, span.high);
         M16 const some = has_row & (span.low <= span.high) & (first < end);
-        sink.rows({at, lanes.slice * wide(g.rows) + lanes.border, first, end - first, some});
+        sink.rows({lanes.ball, lanes.slice * wide(g.rows) + lanes.border, first, end - first, some});
     }
     stream.count = 0;
 }
 
-/// All balls, sixteen at a time: `sink.sixteen(n)` before the rows of those from `n` on.
+/// All balls, four streams at a time, so that one is read when its writing is long done.
 template <bool perspective, bool small, class Sink>
 GNOMON_WIDE_INLINE void visit_stream(RowGrid const& g, Input const& in, std::size_t count, Sink& sink) noexcept {
     Tables16 const tables = make_tables(g);
-    Stream16 stream;
-    Balls16 balls;
+    Stream16 streams[4];
+    Spans16 spans;
     Reach16 reach;
-    for (std::size_t n = 0; n < count; n += 16) {
-        std::uint32_t some = ready_eight<perspective>(g, in, n, 0, balls, reach);
-        some |= ready_eight<perspective>(g, in, n + 8, 8, balls, reach);
-        if (count - n < 16) some &= (1U << (count - n)) - 1U;
-        sink.sixteen(n);
-        for (; some != 0; some &= some - 1) {
-            auto const ball = static_cast<std::uint32_t>(std::countr_zero(some));
-            auto const top = static_cast<std::uint32_t>(reach.row_first[ball]), borders = static_cast<std::uint32_t>(reach.row_last[ball]) - top + 2;
-            auto const last = static_cast<std::uint32_t>(reach.slice_last[ball]);
-            for (auto k = static_cast<std::uint32_t>(reach.slice_first[ball]); k <= last; ++k) {
-                if (stream.count + borders > Stream16::capacity) drain<perspective, small>(g, tables, balls, stream, sink);
-                I16 const first = wide(ball | top << 4U | k << 14U) + lane_numbers() * wide(Stream16::next_border);
-                for (std::uint32_t j = 0; j < borders; j += 16) wide_store(stream.at + stream.count + j, first + wide(j * Stream16::next_border));
-                stream.count += borders;
+    auto const drain_to = [&](Stream16 const* last) __attribute__((target(GNOMON_WIDE_ISA))) {
+        for (Stream16* s = streams; s <= last; ++s) drain<perspective, small>(g, tables, *s, spans, sink);
+    };
+    for (std::size_t n = 0; n < count;) {
+        Stream16* stream = streams;
+        for (; stream < streams + 4 && n < count; ++stream, n += 16) {
+            stream->from = n;
+            make_ready<perspective>(wide_load(in.x + n), wide_load(in.y + n), wide_load(in.depth + n), wide_load(in.radius + n), stream->balls);
+            find_reach<small>(tables, stream->balls, reach);
+            std::uint32_t some = reach.any.v & (count - n < 16 ? (1U << (count - n)) - 1U : 0xFFFFU);
+            for (; some != 0; some &= some - 1) {
+                auto const ball = static_cast<std::uint32_t>(std::countr_zero(some));
+                std::uint32_t const top = reach.border[ball], borders = reach.border_end[ball] - top;
+                for (std::uint32_t k = reach.slice[ball]; k < reach.slice_end[ball]; ++k) {
+                    if (stream->count + borders > Stream16::capacity) drain_to(stream);
+                    I16 const first = wide(ball | top << 4U | k << 14U) + lane_numbers() * wide(Stream16::next_border);
+                    for (std::uint32_t j = 0; j < borders; j += 16) wide_store(stream->at + stream->count + j, first + wide(j * Stream16::next_border));
+                    stream->count += borders;
+                }
             }
         }
-        drain<perspective, small>(g, tables, balls, stream, sink);
+        drain_to(stream - 1);
     }
 }
 

@@ -18,7 +18,8 @@ inline void sort_by_rows(std::span<Run const> runs, std::size_t rows, RowRuns& t
     to.start.assign(rows + 2, 0);
     std::uint32_t* const start = to.start.data();
     for (Run const& run : runs) ++start[run.row + 2];
-    for (std::size_t r = 2; r < rows + 2; ++r) start[r] += start[r - 1];
+    std::uint32_t sum = 0;
+    for (std::size_t r = 2; r < rows + 2; ++r) start[r] = sum += start[r];
     if (to.first.size() < runs.size() + 32)
         for (auto* list : {&to.first, &to.count, &to.light}) list->resize(2 * runs.size() + 32);
     for (Run const& run : runs) {
@@ -42,84 +43,166 @@ GNOMON_WIDE_INLINE __m512i running_sums(__m512i a) noexcept {
 }
 
 /// Up to sixteen cells (offset, count). returns: the sum of the counts.
-GNOMON_WIDE_INLINE std::uint32_t write_cells(__m512i counts, std::uint32_t offset, std::uint32_t lanes, void* cells) noexcept {
+GNOMON_WIDE_INLINE std::uint32_t write_cells(__m512i counts, std::uint32_t offset, std::uint32_t lanes, std::uint64_t* at) noexcept {
     __m512i const sums = running_sums(counts);
     __m512i const offsets = _mm512_add_epi32(_mm512_sub_epi32(sums, counts), _mm512_set1_epi32(static_cast<int>(offset)));
     __m512i const first = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
     __m512i const second = _mm512_add_epi32(first, _mm512_set1_epi32(8));
     std::uint32_t const there = _bzhi_u32(0xFFFFU, lanes);
-    auto* const at = static_cast<std::uint64_t*>(cells);
     _mm512_mask_storeu_epi64(at, static_cast<__mmask8>(there), _mm512_permutex2var_epi32(offsets, first, counts));
     _mm512_mask_storeu_epi64(at + 8, static_cast<__mmask8>(there >> 8U), _mm512_permutex2var_epi32(offsets, second, counts));
     return static_cast<std::uint32_t>(_mm_extract_epi32(_mm512_extracti32x4_epi32(sums, 3), 3));
 }
 
-/// The cells of all rows, and which columns are touched; `cells` are pairs of 32-bit offset and count.
-GNOMON_WIDE_TARGET inline void cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& by_rows, unsigned char* cells) {
-    std::uint32_t const words = (columns + 31) / 32;
-    by_rows.touched.resize(rows * words);
-    std::uint64_t sum = 0;
+/// How many runs are over each of 32 columns.
+GNOMON_WIDE_INLINE __m512i count_over(RowRuns const& runs, std::uint32_t start, std::uint32_t end, std::uint32_t column) noexcept {
     alignas(64) static constexpr std::uint16_t numbers[32] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
                                                               16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
-    for (std::size_t row = 0; row < rows; ++row)
-        for (std::uint32_t word = 0; word < words; ++word) {
-            __m512i const column = _mm512_add_epi16(_mm512_load_si512(numbers), _mm512_set1_epi16(static_cast<short>(32 * word)));
-            __m512i counts = _mm512_setzero_si512();
-            for (std::uint32_t i = by_rows.start[row]; i < by_rows.start[row + 1]; ++i) {
-                __m512i const off = _mm512_sub_epi16(column, _mm512_set1_epi16(static_cast<short>(by_rows.first[i])));
-                __mmask32 const in = _mm512_cmplt_epu16_mask(off, _mm512_set1_epi16(static_cast<short>(by_rows.count[i])));
-                counts = _mm512_mask_add_epi16(counts, in, counts, _mm512_set1_epi16(1));
-            }
-            by_rows.touched[row * words + word] = _mm512_test_epi16_mask(counts, counts);
-            std::uint32_t const left = columns - 32 * word;
-            unsigned char* const at = cells + 8 * (row * columns + 32 * word);
-            sum += write_cells(_mm512_cvtepu16_epi32(_mm512_castsi512_si256(counts)), static_cast<std::uint32_t>(sum), left, at);
-            if (left > 16)
-                sum += write_cells(_mm512_cvtepu16_epi32(_mm512_extracti64x4_epi64(counts, 1)), static_cast<std::uint32_t>(sum), left - 16, at + 128);
-        }
-    by_rows.written = sum;
+    __m512i const columns = _mm512_add_epi16(_mm512_load_si512(numbers), _mm512_set1_epi16(static_cast<short>(column)));
+    __m512i counts = _mm512_setzero_si512();
+    for (std::uint32_t i = start; i < end; ++i) {
+        __m512i const off = _mm512_sub_epi16(columns, _mm512_set1_epi16(static_cast<short>(runs.first[i])));
+        __mmask32 const in = _mm512_cmplt_epu16_mask(off, _mm512_set1_epi16(static_cast<short>(runs.count[i])));
+        counts = _mm512_mask_add_epi16(counts, in, counts, _mm512_set1_epi16(1));
+    }
+    return counts;
 }
 
-/// Where lists go: one after the other.
-template <class Index>
-struct ListEnd {
-    Index* at;
-    Index* end;
-
-    /// Appends the lights of `some`.
-    GNOMON_WIDE_INLINE void put(__mmask32 some, __m512i lights) noexcept {
-        __m512i const packed = _mm512_maskz_compress_epi16(some, lights);
-        auto const n = static_cast<std::uint32_t>(_mm_popcnt_u32(some));
-        if constexpr (std::is_same_v<Index, std::uint16_t>) {
-            // What is written too far is written over: lists ascend.
-            if (end - at >= 32) _mm512_storeu_si512(at, packed);
-            else _mm512_mask_storeu_epi16(at, _bzhi_u32(~0U, n), packed);
-        } else {
-            alignas(64) std::uint16_t one[32];
-            _mm512_store_si512(one, packed);
-            for (std::uint32_t i = 0; i < n; ++i) at[i] = static_cast<Index>(one[i]);
+/// The cells of all rows, and which columns are touched; `cells` are pairs of 32-bit offset and count.
+GNOMON_WIDE_TARGET inline void cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& runs, std::uint64_t* cells) {
+    std::uint32_t const words = (columns + 31) / 32;
+    runs.touched.resize(rows * words);
+    runs.offset.resize(rows + 1);
+    std::uint64_t sum = 0;
+    for (std::size_t row = 0; row < rows; ++row, cells += columns) {
+        runs.offset[row] = sum;
+        if (runs.start[row] == runs.start[row + 1]) {
+            for (std::uint32_t i = 0; i < columns; i += 8)
+                _mm512_mask_storeu_epi64(cells + i, static_cast<__mmask8>(_bzhi_u32(0xFFU, columns - i)),
+                                         _mm512_set1_epi64(static_cast<std::uint32_t>(sum)));
+            for (std::uint32_t word = 0; word < words; ++word) runs.touched[row * words + word] = 0;
+            continue;
         }
-        at += n;
+        for (std::uint32_t word = 0; word < words; ++word) {
+            __m512i const counts = count_over(runs, runs.start[row], runs.start[row + 1], 32 * word);
+            runs.touched[row * words + word] = _mm512_test_epi16_mask(counts, counts);
+            std::uint32_t const left = columns - 32 * word;
+            std::uint64_t* const at = cells + 32 * word;
+            sum += write_cells(_mm512_cvtepu16_epi32(_mm512_castsi512_si256(counts)), static_cast<std::uint32_t>(sum), left, at);
+            if (left > 16)
+                sum += write_cells(_mm512_cvtepu16_epi32(_mm512_extracti64x4_epi64(counts, 1)), static_cast<std::uint32_t>(sum), left - 16, at + 16);
+        }
+    }
+    runs.offset[rows] = sum;
+}
+
+/// Writes the lights of `some`. returns: the end. `roomy`: 32 numbers may be written, as the next list writes over the rest.
+template <bool roomy, class Index>
+GNOMON_WIDE_INLINE Index* put(__mmask32 some, __m512i lights, Index* at) noexcept {
+    __m512i const packed = _mm512_maskz_compress_epi16(some, lights);
+    auto const n = static_cast<std::uint32_t>(_mm_popcnt_u32(some));
+    if constexpr (roomy) {
+        _mm512_storeu_si512(at, packed);
+    } else if constexpr (std::is_same_v<Index, std::uint16_t>) {
+        _mm512_mask_storeu_epi16(at, _bzhi_u32(~0U, n), packed);
+    } else {
+        alignas(64) std::uint16_t one[32];
+        _mm512_store_si512(one, packed);
+        for (std::uint32_t i = 0; i < n; ++i) at[i] = static_cast<Index>(one[i]);
+    }
+    return at + n;
+}
+
+/// What the fill reads, apart from the vectors, which the compiler would ask again after each list that it writes.
+struct RunTables {
+    std::uint32_t const* start;
+    std::uint32_t const* touched;
+    std::uint16_t const* first;
+    std::uint16_t const* count;
+    std::uint16_t const* light;
+    std::uint32_t words;
+};
+
+/// Up to 32 runs of a row.
+struct Runs32 {
+    __m512i first, count, light;
+
+    GNOMON_WIDE_INLINE void read(RunTables const& from, std::uint32_t start, std::uint32_t end) noexcept {
+        first = _mm512_loadu_si512(from.first + start);
+        count = _mm512_maskz_loadu_epi16(_bzhi_u32(~0U, end - start < 32 ? end - start : 32), from.count + start);
+        light = _mm512_loadu_si512(from.light + start);
+    }
+    [[nodiscard]] GNOMON_WIDE_INLINE __mmask32 over(__m512i column) const noexcept {
+        return _mm512_cmplt_epu16_mask(_mm512_sub_epi16(column, first), count);
     }
 };
 
-/// expects: `indices` of `written` elements.
-template <class Index>
-GNOMON_WIDE_TARGET void fill_by_rows(RowRuns const& by_rows, Index* indices) noexcept {
-    std::size_t const rows = by_rows.start.size() - 2, words = rows != 0 ? by_rows.touched.size() / rows : 0;
-    ListEnd<Index> list{indices, indices + by_rows.written};
-    for (std::size_t row = 0; row < rows; ++row) {
-        std::uint32_t const start = by_rows.start[row], end = by_rows.start[row + 1];
-        for (std::uint32_t word = 0; word < words; ++word)
-            for (std::uint32_t some = by_rows.touched[row * words + word]; some != 0; some &= some - 1) {
-                __m512i const column = _mm512_set1_epi16(static_cast<short>(32 * word + static_cast<std::uint32_t>(std::countr_zero(some))));
-                for (std::uint32_t i = start; i < end; i += 32) {
-                    __m512i const off = _mm512_sub_epi16(column, _mm512_loadu_si512(by_rows.first.data() + i));
-                    __mmask32 const in = _mm512_cmplt_epu16_mask(off, _mm512_loadu_si512(by_rows.count.data() + i));
-                    list.put(in & _bzhi_u32(~0U, end - i), _mm512_loadu_si512(by_rows.light.data() + i));
-                }
-            }
+/// Some columns of a row, of which those of `touched` have lists, and the row's runs.
+struct RowPart {
+    std::uint32_t start, end, column, touched;
+
+    /// The next of the columns, in all lanes.
+    GNOMON_WIDE_INLINE __m512i next() noexcept {
+        std::uint32_t const at = column + static_cast<std::uint32_t>(std::countr_zero(touched));
+        touched &= touched - 1;
+        return _mm512_set1_epi16(static_cast<short>(at));
     }
+};
+
+/// A row of up to 32 * `vectors` runs, which stay in registers. returns: where the lists end.
+template <bool roomy, std::uint32_t vectors, class Index>
+GNOMON_WIDE_INLINE Index* fill_row(RunTables const& from, RowPart row, Index* at) noexcept {
+    Runs32 runs[vectors];
+    for (std::uint32_t i = 0; i < vectors; ++i) runs[i].read(from, row.start + 32 * i, row.end);
+    while (row.touched != 0) {
+        __m512i const column = row.next();
+        for (std::uint32_t i = 0; i < vectors; ++i) at = put<roomy>(runs[i].over(column), runs[i].light, at);
+    }
+    return at;
+}
+
+/// A row of any number of runs.
+template <bool roomy, class Index>
+GNOMON_WIDE_INLINE Index* fill_long_row(RunTables const& from, RowPart row, Index* at) noexcept {
+    while (row.touched != 0) {
+        __m512i const column = row.next();
+        for (std::uint32_t i = row.start; i < row.end; i += 32) {
+            Runs32 runs;
+            runs.read(from, i, row.end);
+            at = put<roomy>(runs.over(column), runs.light, at);
+        }
+    }
+    return at;
+}
+
+template <bool roomy, class Index>
+GNOMON_WIDE_INLINE Index* fill_rows(RunTables const& from, std::size_t row, std::size_t row_end, Index* at) noexcept {
+    for (; row < row_end; ++row)
+        for (std::uint32_t word = 0; word < from.words; ++word) {
+            RowPart const part{from.start[row], from.start[row + 1], 32 * word, from.touched[row * from.words + word]};
+            switch ((part.end - part.start + 31) / 32) {
+                case 0: break;
+                case 1: at = fill_row<roomy, 1>(from, part, at); break;
+                case 2: at = fill_row<roomy, 2>(from, part, at); break;
+                case 3: at = fill_row<roomy, 3>(from, part, at); break;
+                default: at = fill_long_row<roomy>(from, part, at); break;
+            }
+        }
+    return at;
+}
+
+/// expects: `indices` of as many elements as the rows' last offset says.
+template <class Index>
+GNOMON_WIDE_TARGET void fill_by_rows(RowRuns const& runs, Index* indices) noexcept {
+    std::size_t const rows = runs.start.size() - 2;
+    RunTables const tables{runs.start.data(), runs.touched.data(), runs.first.data(), runs.count.data(), runs.light.data(),
+                           static_cast<std::uint32_t>(runs.touched.size() / rows)};
+    std::size_t roomy = 0;
+    if constexpr (std::is_same_v<Index, std::uint16_t>) {
+        for (roomy = rows; roomy > 0 && runs.offset[rows] - runs.offset[roomy] < 32;) --roomy;
+        indices = fill_rows<true>(tables, 0, roomy, indices);
+    }
+    fill_rows<false>(tables, roomy, rows, indices);
 }
 
 GNOMON_WIDE_END

@@ -19,23 +19,21 @@ struct RunSink16 {
     Run* next = nullptr;
     cull::detail::I16 lights{};
 
-    void reserve(std::size_t more) {
-        close();
-        if (work.runs.size() < work.run_count + more + 16) work.runs.resize(2 * work.runs.size() + more + 16);
-        next = work.runs.data() + work.run_count;
-    }
     void close() noexcept {
         if (next != nullptr) work.run_count = static_cast<std::size_t>(next - work.runs.data());
     }
-    GNOMON_WIDE_INLINE void sixteen(std::size_t n) noexcept { lights = cull::detail::wide_load(work.index.data() + n); }
+    GNOMON_WIDE_INLINE void sixteen(std::size_t from, std::size_t most) {
+        close();
+        if (work.runs.size() < work.run_count + most + 16) work.runs.resize(2 * work.runs.size() + most + 16);
+        next = work.runs.data() + work.run_count;
+        lights = cull::detail::wide_load(work.index.data() + from);
+    }
     GNOMON_WIDE_INLINE void rows(cull::detail::Rows16 const& r) noexcept {
-        // From four vectors to sixteen runs: packed into the order in which the unpacking of pairs gives runs 0 to 3, 4 to 7, ...
+        // The lanes of `some`, in the order in which the unpacking of pairs gives runs 0 to 3, 4 to 7, ...
         __m512i const order = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
-        auto const pack = [&](cull::detail::I16 a) __attribute__((target(GNOMON_WIDE_ISA))) {
-            return _mm512_permutexvar_epi32(order, cull::detail::packed(r.some, a).v);
-        };
-        __m512i const row = pack(r.row), first = pack(r.first), count = pack(r.count);
-        __m512i const light = pack({_mm512_permutexvar_epi32(r.ball.v, lights.v)});
+        cull::detail::I16 const lanes{_mm512_permutexvar_epi32(order, cull::detail::packed(r.some, cull::detail::lane_numbers()).v)};
+        __m512i const row = lookup(r.row, lanes).v, first = lookup(r.first, lanes).v, count = lookup(r.count, lanes).v;
+        __m512i const light = lookup(lights, lookup(r.ball, lanes)).v;
         __m512i const places = _mm512_unpacklo_epi32(row, first), more_places = _mm512_unpackhi_epi32(row, first);
         __m512i const rest = _mm512_unpacklo_epi32(count, light), more_rest = _mm512_unpackhi_epi32(count, light);
         _mm512_storeu_si512(next, _mm512_unpacklo_epi64(places, rest));
