@@ -1,6 +1,6 @@
 // Assignment of lights to clusters: the grid and the scenes of the yardsticks, one thread.
 
-#include "../../cull/tests/light_scenes.hpp"
+#include "setup.hpp"
 
 #include <gnomon/lights.hpp>
 
@@ -14,18 +14,7 @@ namespace {
 
 using namespace gnomon;
 
-struct Setup {
-    test::YardGrid yard;
-    cull::RowGrid grid;
-    std::vector<lights::Light> lights;
-
-    Setup(std::int64_t scene, std::int64_t count, bool spots) : grid(cull::make_row_grid(yard.view())) {
-        for (test::SceneLight const& l : test::make_lights(test::light_scenes[scene], static_cast<std::size_t>(count))) {
-            if (spots) lights.push_back(lights::make_spot(l.center, l.range, l.axis, l.half_angle_rad));
-            else lights.push_back(lights::make_point(l.center, l.range));
-        }
-    }
-};
+using bench::Setup;
 
 void planes(benchmark::State& state) {
     Setup const setup(state.range(0), state.range(1), state.range(2) != 0);
@@ -56,7 +45,7 @@ void lists(benchmark::State& state) {
     state.counters["pairs"] = pairs;
 }
 
-/// The floor: the same lists from runs that are known.
+/// The floor: the same lists from runs that are known, by the plain loops.
 void lists_fill_only(benchmark::State& state) {
     Setup const setup(state.range(0), state.range(1), state.range(2) != 0);
     lights::Workspace work;

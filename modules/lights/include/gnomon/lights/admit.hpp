@@ -74,6 +74,7 @@ struct Run {
 /// Runs by rows, in each row by lights, in arrays that may be read in 32s: for lights that 16 bits can count.
 struct RowRuns {
     bool used = false;
+    std::size_t lights = 0;                     ///< of the caller's list
     std::vector<std::uint32_t> start;           ///< of each row's runs; one more, their end, and another for the sort
     std::vector<std::uint64_t> offset;          ///< of each row's lists; and of their end
     std::vector<std::uint32_t> touched;         ///< of each row: a bit a column whose list is not empty, in words

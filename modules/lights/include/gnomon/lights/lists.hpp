@@ -79,6 +79,7 @@ inline std::uint64_t lay_out(cull::RowGrid const& grid, std::size_t lights, bool
     if (lanes && lights <= 0xFFFFU && grid.columns <= 0x8000U && cull::detail::has_wide_lanes()) {
         std::size_t const rows = std::size_t{grid.rows} * grid.slices;
         work.by_rows.used = true;
+        work.by_rows.lights = lights;
         sort_by_rows({work.runs.data(), work.run_count}, rows, work.by_rows);
         cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
         return work.by_rows.offset[rows];
@@ -176,6 +177,7 @@ void fill_lists(Workspace& work, std::span<Index> indices) noexcept {
 #if GNOMON_CULL_AVX2
     if (work.by_rows.used) {
         GNOMON_EXPECT(work.by_rows.offset.back() <= indices.size());
+        GNOMON_EXPECT(sizeof(Index) > 1 || work.by_rows.lights <= 256);
         detail::fill_by_rows(work.by_rows, indices.data());
         return;
     }
