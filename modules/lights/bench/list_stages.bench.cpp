@@ -37,7 +37,8 @@ struct CountSink {
     std::size_t borders = 0;
     std::size_t rows_touched = 0;
 
-    GNOMON_WIDE_INLINE void sixteen(std::size_t, std::size_t most) noexcept { borders += most; }
+    void reserve(std::size_t most) noexcept { borders += most; }
+    void balls(std::size_t) noexcept {}
     GNOMON_WIDE_INLINE void rows(cull::detail::Rows16 const& r) noexcept {
         rows_touched += static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(r.some.v)));
     }

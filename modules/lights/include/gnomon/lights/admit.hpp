@@ -90,7 +90,7 @@ struct LightPairs {
 
 /// Memory of the assignment. Keeps what it has from frame to frame, so that nothing is allocated after the first.
 struct Workspace {
-    std::vector<float> x, y, depth, radius;  ///< of the points and spots that take part; 16 more may be read
+    std::vector<float> x, y, depth, radius;  ///< of the points and spots that take part; 64 more may be read
     std::vector<float> axis[3], cosine, sine;  ///< of the narrow spots among them; the others have a cosine of -1
     bool cones = false;                      ///< there are such spots
     std::vector<std::uint32_t> index;        ///< which they are in the caller's list, ascending; padded too
@@ -124,7 +124,7 @@ inline void admit_cone(Light const& l, std::size_t n, Workspace& work) noexcept 
 /// cost: O(lights)
 [[nodiscard]] inline Report admit(std::span<Light const> lights, std::uint32_t layers, Workspace& work) {
     GNOMON_EXPECT(lights.size() < 0xFFFFFFFFU);
-    std::size_t const padded = lights.size() + 16;
+    std::size_t const padded = lights.size() + 64;
     for (auto* list : {&work.x, &work.y, &work.depth, &work.radius, &work.axis[0], &work.axis[1], &work.axis[2], &work.cosine, &work.sine})
         list->resize(padded);
     work.index.resize(padded);

@@ -10,25 +10,21 @@
 
 namespace gnomon::cull::detail {
 
-/// Sixteen balls and their stream. Elements: the ball in 4 bits, the border in 10, the slice in 18.
+/// Up to 64 balls and their stream. Elements: the ball in 6 bits, the border in 10, the slice in 16.
 struct Stream16 {
-    static constexpr std::uint32_t capacity = 1024, next_border = 16, next_slice = 1U << 14U, most_rows = 1023, most_slices = 1U << 18U;
+    static constexpr std::uint32_t capacity = 2048, next_border = 1U << 6U, next_slice = 1U << 16U, most_rows = 1023, most_slices = 0xFFFF;
 
-    std::size_t from = 0;
-    Balls16 balls;
+    Balls16 balls[4];
+    std::uint32_t start[5] = {};  ///< of each sixteen's elements
     std::uint32_t count = 0;
-    alignas(64) std::uint32_t at[capacity + 48];
-};
-
-/// Of each sixteen of a stream.
-struct Spans16 {
-    alignas(64) float low[(Stream16::capacity / 15 + 1) * 16];
-    alignas(64) float high[(Stream16::capacity / 15 + 1) * 16];
+    alignas(64) std::uint32_t at[capacity + 64];
+    alignas(64) float low[capacity + 64];  ///< the span of the row below each element
+    alignas(64) float high[capacity + 64];
 };
 
 /// Whether sixteen lanes are there, and a grid's rows and slices have the bits.
 [[nodiscard]] inline bool has_stream(RowGrid const& g) noexcept {
-    return has_wide_lanes() && g.rows <= Stream16::most_rows && g.slices < Stream16::most_slices;
+    return has_wide_lanes() && g.rows <= Stream16::most_rows && g.slices <= Stream16::most_slices - 1;
 }
 
 /// Whether each of a grid's tables fits two registers.
@@ -72,63 +68,65 @@ GNOMON_WIDE_INLINE void find_reach(Tables16 const& t, Balls16 const& b, Reach16&
 
 GNOMON_WIDE_INLINE Lanes16 lanes_at(Stream16 const& stream, std::uint32_t i) noexcept {
     I16 const at = wide_load(stream.at + i);
-    return {at, shift_right<4>(at) & wide(Stream16::most_rows), shift_right<14>(at)};
+    return {at, shift_right<6>(at) & wide(Stream16::most_rows), shift_right<16>(at)};
 }
 
-/// Cuts what a stream has, and empties it: `sink.sixteen(from, most)`, then `sink.rows` in the stream's order.
+/// Cuts what the stream has of its first `sixteens`, and empties it: `sink.rows` in the stream's order.
 template <bool perspective, bool small, class Sink>
-GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, Stream16& stream, Spans16& spans, Sink& sink) noexcept {
+GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, int sixteens, Stream16& stream, Sink& sink) noexcept {
+    stream.start[sixteens] = stream.count;
     wide_store(stream.at + stream.count, wide(0U));  // no border below
     wide_store(stream.at + stream.count + 16, wide(0U));
-    // In two turns, so that more of each are under way at once: a span and its columns are one long chain of instructions.
-    float *low = spans.low, *high = spans.high;
-    for (std::uint32_t i = 0; i + 1 < stream.count; i += 15, low += 16, high += 16) {
-        Span16 const span = row_spans<perspective, small>(t, stream.balls, lanes_at(stream, i));
-        _mm512_store_ps(low, span.low.v);
-        _mm512_store_ps(high, span.high.v);
-    }
-    sink.sixteen(stream.from, stream.count);
-    low = spans.low, high = spans.high;
-    for (std::uint32_t i = 0; i + 1 < stream.count; i += 15, low += 16, high += 16) {
+    for (int s = 0; s < sixteens; ++s)
+        for (std::uint32_t i = stream.start[s]; i < stream.start[s + 1]; i += 15) {
+            Span16 const span = row_spans<perspective, small>(t, stream.balls[s], lanes_at(stream, i));
+            _mm512_storeu_ps(stream.low + i, span.low.v);
+            _mm512_storeu_ps(stream.high + i, span.high.v);
+        }
+    for (std::uint32_t i = 0; i < stream.count; i += 16) {
         Lanes16 const lanes = lanes_at(stream, i);
-        Span16 const span{wide_load(low), wide_load(high)};
-        M16 const has_row = M16{0x7FFF} & (wide_load(stream.at + i + 1) == lanes.ball + wide(Stream16::next_border));
+        Span16 const span{wide_load(stream.low + i), wide_load(stream.high + i)};
+        M16 const has_row = wide_load(stream.at + i + 1) == lanes.ball + wide(Stream16::next_border);
         I16 const first = count_below<small, false>(t.right, span.low), end = count_below<small, true>(t.left, span.high);
         M16 const some = has_row & (span.low <= span.high) & (first < end);
         sink.rows({lanes.ball, lanes.slice * wide(g.rows) + lanes.border, first, end - first, some});
     }
+    for (std::uint32_t& start : stream.start) start = 0;
     stream.count = 0;
 }
 
-/// All balls, four streams at a time, so that one is read when its writing is long done.
+/// All balls, 64 at a time, so that the stream is read when its writing is long done: `sink.balls(from)` before the rows of
+/// those, `sink.reserve(n)` before at most n rows.
 template <bool perspective, bool small, class Sink>
 GNOMON_WIDE_INLINE void visit_stream(RowGrid const& g, Input const& in, std::size_t count, Sink& sink) noexcept {
     Tables16 const tables = make_tables(g);
-    Stream16 streams[4];
-    Spans16 spans;
+    Stream16 stream;
     Reach16 reach;
-    auto const drain_to = [&](Stream16 const* last) __attribute__((target(GNOMON_WIDE_ISA))) {
-        for (Stream16* s = streams; s <= last; ++s) drain<perspective, small>(g, tables, *s, spans, sink);
+    auto const drain_to = [&](int sixteens) __attribute__((target(GNOMON_WIDE_ISA))) {
+        sink.reserve(stream.count);
+        drain<perspective, small>(g, tables, sixteens, stream, sink);
     };
-    for (std::size_t n = 0; n < count;) {
-        Stream16* stream = streams;
-        for (; stream < streams + 4 && n < count; ++stream, n += 16) {
-            stream->from = n;
-            make_ready<perspective>(wide_load(in.x + n), wide_load(in.y + n), wide_load(in.depth + n), wide_load(in.radius + n), stream->balls);
-            find_reach<small>(tables, stream->balls, reach);
+    for (std::size_t from = 0; from < count; from += 64) {
+        sink.balls(from);
+        int s = 0;
+        for (std::size_t n = from; s < 4 && n < count; ++s, n += 16) {
+            Balls16& balls = stream.balls[s];
+            stream.start[s] = stream.count;
+            make_ready<perspective>(wide_load(in.x + n), wide_load(in.y + n), wide_load(in.depth + n), wide_load(in.radius + n), balls);
+            find_reach<small>(tables, balls, reach);
             std::uint32_t some = reach.any.v & (count - n < 16 ? (1U << (count - n)) - 1U : 0xFFFFU);
             for (; some != 0; some &= some - 1) {
                 auto const ball = static_cast<std::uint32_t>(std::countr_zero(some));
                 std::uint32_t const top = reach.border[ball], borders = reach.border_end[ball] - top;
                 for (std::uint32_t k = reach.slice[ball]; k < reach.slice_end[ball]; ++k) {
-                    if (stream->count + borders > Stream16::capacity) drain_to(stream);
-                    I16 const first = wide(ball | top << 4U | k << 14U) + lane_numbers() * wide(Stream16::next_border);
-                    for (std::uint32_t j = 0; j < borders; j += 16) wide_store(stream->at + stream->count + j, first + wide(j * Stream16::next_border));
-                    stream->count += borders;
+                    if (stream.count + borders > Stream16::capacity) drain_to(s + 1);
+                    I16 const first = wide((static_cast<std::uint32_t>(s) * 16 + ball) | top << 6U | k << 16U) + lane_numbers() * wide(Stream16::next_border);
+                    for (std::uint32_t j = 0; j < borders; j += 16) wide_store(stream.at + stream.count + j, first + wide(j * Stream16::next_border));
+                    stream.count += borders;
                 }
             }
         }
-        drain_to(stream - 1);
+        drain_to(s);
     }
 }
 
