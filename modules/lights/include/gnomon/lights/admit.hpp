@@ -71,14 +71,22 @@ struct Run {
     std::uint32_t light;
 };
 
+/// Up to 32 columns of a row, some of which have lists, and the row's runs.
+struct RowPart {
+    std::uint32_t start, end;  ///< of the runs by rows
+    std::uint32_t column;
+    std::uint32_t touched;     ///< a bit a column from that on, not 0
+    std::uint64_t list_end;    ///< where the last of the lists ends
+};
+
 /// Runs by rows, in each row by lights, in arrays that may be read in 32s: for lights that 16 bits can count.
 struct RowRuns {
     bool used = false;
-    std::size_t lights = 0;                     ///< of the caller's list
-    std::vector<std::uint32_t> start;           ///< of each row's runs; one more, their end, and another for the sort
-    std::vector<std::uint64_t> offset;          ///< of each row's lists; and of their end
-    std::vector<std::uint32_t> touched;         ///< of each row: a bit a column whose list is not empty, in words
+    std::size_t lights = 0;               ///< of the caller's list
+    std::vector<std::uint32_t> start;     ///< of each row's runs; one more, their end, and another for the sort
     std::vector<std::uint16_t> first, count, light;
+    std::vector<RowPart> parts;
+    std::size_t part_count = 0;
 };
 
 /// How many clusters a light touches.

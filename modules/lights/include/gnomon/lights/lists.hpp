@@ -81,8 +81,7 @@ inline std::uint64_t lay_out(cull::RowGrid const& grid, std::size_t lights, bool
         work.by_rows.used = true;
         work.by_rows.lights = lights;
         sort_by_rows({work.runs.data(), work.run_count}, rows, work.by_rows);
-        cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
-        return work.by_rows.offset[rows];
+        return cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
     }
 #endif
     (void)lights, (void)lanes;
@@ -176,7 +175,7 @@ template <std::unsigned_integral Index>
 void fill_lists(Workspace& work, std::span<Index> indices) noexcept {
 #if GNOMON_CULL_AVX2
     if (work.by_rows.used) {
-        GNOMON_EXPECT(work.by_rows.offset.back() <= indices.size());
+        GNOMON_EXPECT(work.by_rows.part_count == 0 || work.by_rows.parts[work.by_rows.part_count - 1].list_end <= indices.size());
         GNOMON_EXPECT(sizeof(Index) > 1 || work.by_rows.lights <= 256);
         detail::fill_by_rows(work.by_rows, indices.data());
         return;

@@ -10,9 +10,9 @@
 #define GNOMON_WIDE_ISA "avx2,bmi,bmi2,popcnt,lzcnt,avx512f,avx512vl,avx512bw,avx512dq,avx512vbmi2"
 #define GNOMON_WIDE_INLINE [[gnu::target(GNOMON_WIDE_ISA), gnu::always_inline]] inline
 #if defined(__clang__)
-#define GNOMON_WIDE_TARGET [[gnu::target(GNOMON_WIDE_ISA), gnu::flatten]]
+#define GNOMON_WIDE_TARGET [[gnu::target(GNOMON_WIDE_ISA)]]
 #else
-#define GNOMON_WIDE_TARGET [[gnu::target(GNOMON_WIDE_ISA), gnu::optimize("fp-contract=off"), gnu::flatten]]
+#define GNOMON_WIDE_TARGET [[gnu::target(GNOMON_WIDE_ISA), gnu::optimize("fp-contract=off")]]
 #endif
 
 /// GCC takes the undefined vectors of its own header for ours (its bug 105593).

@@ -71,9 +71,11 @@ GNOMON_WIDE_INLINE Lanes16 lanes_at(Stream16 const& stream, std::uint32_t i) noe
     return {at, shift_right<6>(at) & wide(Stream16::most_rows), shift_right<16>(at)};
 }
 
-/// Cuts what the stream has of its first `sixteens`, and empties it: `sink.rows` in the stream's order.
+/// Cuts what the stream has of its first `sixteens`, and empties it: `sink.reserve(n)`, then `sink.rows` of at most n rows in the
+/// stream's order.
 template <bool perspective, bool small, class Sink>
-GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, int sixteens, Stream16& stream, Sink& sink) noexcept {
+[[gnu::noinline]] GNOMON_WIDE_TARGET void drain(RowGrid const& g, Tables16 const& t, int sixteens, Stream16& stream, Sink& sink) noexcept {
+    sink.reserve(stream.count);
     stream.start[sixteens] = stream.count;
     wide_store(stream.at + stream.count, wide(0U));  // no border below
     wide_store(stream.at + stream.count + 16, wide(0U));
@@ -96,16 +98,12 @@ GNOMON_WIDE_INLINE void drain(RowGrid const& g, Tables16 const& t, int sixteens,
 }
 
 /// All balls, 64 at a time, so that the stream is read when its writing is long done: `sink.balls(from)` before the rows of
-/// those, `sink.reserve(n)` before at most n rows.
+/// those.
 template <bool perspective, bool small, class Sink>
 GNOMON_WIDE_INLINE void visit_stream(RowGrid const& g, Input const& in, std::size_t count, Sink& sink) noexcept {
     Tables16 const tables = make_tables(g);
     Stream16 stream;
     Reach16 reach;
-    auto const drain_to = [&](int sixteens) __attribute__((target(GNOMON_WIDE_ISA))) {
-        sink.reserve(stream.count);
-        drain<perspective, small>(g, tables, sixteens, stream, sink);
-    };
     for (std::size_t from = 0; from < count; from += 64) {
         sink.balls(from);
         int s = 0;
@@ -119,14 +117,14 @@ GNOMON_WIDE_INLINE void visit_stream(RowGrid const& g, Input const& in, std::siz
                 auto const ball = static_cast<std::uint32_t>(std::countr_zero(some));
                 std::uint32_t const top = reach.border[ball], borders = reach.border_end[ball] - top;
                 for (std::uint32_t k = reach.slice[ball]; k < reach.slice_end[ball]; ++k) {
-                    if (stream.count + borders > Stream16::capacity) drain_to(s + 1);
+                    if (stream.count + borders > Stream16::capacity) drain<perspective, small>(g, tables, s + 1, stream, sink);
                     I16 const first = wide((static_cast<std::uint32_t>(s) * 16 + ball) | top << 6U | k << 16U) + lane_numbers() * wide(Stream16::next_border);
                     for (std::uint32_t j = 0; j < borders; j += 16) wide_store(stream.at + stream.count + j, first + wide(j * Stream16::next_border));
                     stream.count += borders;
                 }
             }
         }
-        drain_to(s);
+        drain<perspective, small>(g, tables, s, stream, sink);
     }
 }
 

@@ -22,11 +22,13 @@ inline void sort_by_rows(std::span<Run const> runs, std::size_t rows, RowRuns& t
     for (std::size_t r = 2; r < rows + 2; ++r) start[r] = sum += start[r];
     if (to.first.size() < runs.size() + 32)
         for (auto* list : {&to.first, &to.count, &to.light}) list->resize(2 * runs.size() + 32);
-    for (Run const& run : runs) {
-        std::uint32_t const at = start[run.row + 1]++;
-        to.first[at] = static_cast<std::uint16_t>(run.first);
-        to.count[at] = static_cast<std::uint16_t>(run.count);
-        to.light[at] = static_cast<std::uint16_t>(run.light);
+    std::uint16_t *const first = to.first.data(), *const count = to.count.data(), *const light = to.light.data();
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        std::uint32_t const at = start[runs[i].row + 1]++;
+        first[at] = static_cast<std::uint16_t>(runs[i].first);
+        count[at] = static_cast<std::uint16_t>(runs[i].count);
+        light[at] = static_cast<std::uint16_t>(runs[i].light);
     }
 }
 
@@ -68,32 +70,27 @@ GNOMON_WIDE_INLINE __m512i count_over(RowRuns const& runs, std::uint32_t start, 
     return counts;
 }
 
-/// The cells of all rows, and which columns are touched; `cells` are pairs of 32-bit offset and count.
-GNOMON_WIDE_TARGET inline void cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& runs, std::uint64_t* cells) {
-    std::uint32_t const words = (columns + 31) / 32;
-    runs.touched.resize(rows * words);
-    runs.offset.resize(rows + 1);
+/// The cells of all rows, pairs of 32-bit offset and count, and the rows' parts. returns: the sum of the counts.
+GNOMON_WIDE_TARGET inline std::uint64_t cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& runs, std::uint64_t* cells) {
+    runs.parts.resize(rows * ((columns + 31) / 32));
+    RowPart* part = runs.parts.data();
     std::uint64_t sum = 0;
     for (std::size_t row = 0; row < rows; ++row, cells += columns) {
-        runs.offset[row] = sum;
-        if (runs.start[row] == runs.start[row + 1]) {
-            for (std::uint32_t i = 0; i < columns; i += 8)
-                _mm512_mask_storeu_epi64(cells + i, static_cast<__mmask8>(_bzhi_u32(0xFFU, columns - i)),
-                                         _mm512_set1_epi64(static_cast<std::uint32_t>(sum)));
-            for (std::uint32_t word = 0; word < words; ++word) runs.touched[row * words + word] = 0;
-            continue;
-        }
-        for (std::uint32_t word = 0; word < words; ++word) {
-            __m512i const counts = count_over(runs, runs.start[row], runs.start[row + 1], 32 * word);
-            runs.touched[row * words + word] = _mm512_test_epi16_mask(counts, counts);
-            std::uint32_t const left = columns - 32 * word;
-            std::uint64_t* const at = cells + 32 * word;
+        std::uint32_t const start = runs.start[row], end = runs.start[row + 1];
+        for (std::uint32_t column = 0; column < columns; column += 32) {
+            __m512i const counts = count_over(runs, start, end, column);
+            std::uint32_t const left = columns - column;
+            std::uint64_t* const at = cells + column;
             sum += write_cells(_mm512_cvtepu16_epi32(_mm512_castsi512_si256(counts)), static_cast<std::uint32_t>(sum), left, at);
-            if (left > 16)
-                sum += write_cells(_mm512_cvtepu16_epi32(_mm512_extracti64x4_epi64(counts, 1)), static_cast<std::uint32_t>(sum), left - 16, at + 16);
+            __m512i const others = _mm512_cvtepu16_epi32(_mm512_extracti64x4_epi64(counts, 1));
+            if (left > 16) sum += write_cells(others, static_cast<std::uint32_t>(sum), left - 16, at + 16);
+            std::uint32_t const touched = _mm512_test_epi16_mask(counts, counts);
+            *part = {start, end, column, touched, sum};
+            part += touched != 0 ? 1 : 0;
         }
     }
-    runs.offset[rows] = sum;
+    runs.part_count = static_cast<std::size_t>(part - runs.parts.data());
+    return sum;
 }
 
 /// Writes the lights of `some`. returns: the end. `roomy`: 32 numbers may be written, as the next list writes over the rest.
@@ -113,49 +110,34 @@ GNOMON_WIDE_INLINE Index* put(__mmask32 some, __m512i lights, Index* at) noexcep
     return at + n;
 }
 
-/// What the fill reads, apart from the vectors, which the compiler would ask again after each list that it writes.
-struct RunTables {
-    std::uint32_t const* start;
-    std::uint32_t const* touched;
-    std::uint16_t const* first;
-    std::uint16_t const* count;
-    std::uint16_t const* light;
-    std::uint32_t words;
-};
-
 /// Up to 32 runs of a row.
 struct Runs32 {
     __m512i first, count, light;
 
-    GNOMON_WIDE_INLINE void read(RunTables const& from, std::uint32_t start, std::uint32_t end) noexcept {
-        first = _mm512_loadu_si512(from.first + start);
-        count = _mm512_maskz_loadu_epi16(_bzhi_u32(~0U, end - start < 32 ? end - start : 32), from.count + start);
-        light = _mm512_loadu_si512(from.light + start);
+    GNOMON_WIDE_INLINE void read(RowRuns const& from, std::uint32_t start, std::uint32_t end) noexcept {
+        first = _mm512_loadu_si512(from.first.data() + start);
+        count = _mm512_maskz_loadu_epi16(_bzhi_u32(~0U, end - start < 32 ? end - start : 32), from.count.data() + start);
+        light = _mm512_loadu_si512(from.light.data() + start);
     }
     [[nodiscard]] GNOMON_WIDE_INLINE __mmask32 over(__m512i column) const noexcept {
         return _mm512_cmplt_epu16_mask(_mm512_sub_epi16(column, first), count);
     }
 };
 
-/// Some columns of a row, of which those of `touched` have lists, and the row's runs.
-struct RowPart {
-    std::uint32_t start, end, column, touched;
-
-    /// The next of the columns, in all lanes.
-    GNOMON_WIDE_INLINE __m512i next() noexcept {
-        std::uint32_t const at = column + static_cast<std::uint32_t>(std::countr_zero(touched));
-        touched &= touched - 1;
-        return _mm512_set1_epi16(static_cast<short>(at));
-    }
-};
+/// The next of a part's columns, in all lanes.
+GNOMON_WIDE_INLINE __m512i next_column(RowPart& part) noexcept {
+    std::uint32_t const at = part.column + static_cast<std::uint32_t>(std::countr_zero(part.touched));
+    part.touched &= part.touched - 1;
+    return _mm512_set1_epi16(static_cast<short>(at));
+}
 
 /// A row of up to 32 * `vectors` runs, which stay in registers. returns: where the lists end.
 template <bool roomy, std::uint32_t vectors, class Index>
-GNOMON_WIDE_INLINE Index* fill_row(RunTables const& from, RowPart row, Index* at) noexcept {
+GNOMON_WIDE_INLINE Index* fill_row(RowRuns const& from, RowPart row, Index* at) noexcept {
     Runs32 runs[vectors];
     for (std::uint32_t i = 0; i < vectors; ++i) runs[i].read(from, row.start + 32 * i, row.end);
     while (row.touched != 0) {
-        __m512i const column = row.next();
+        __m512i const column = next_column(row);
         for (std::uint32_t i = 0; i < vectors; ++i) at = put<roomy>(runs[i].over(column), runs[i].light, at);
     }
     return at;
@@ -163,9 +145,9 @@ GNOMON_WIDE_INLINE Index* fill_row(RunTables const& from, RowPart row, Index* at
 
 /// A row of any number of runs.
 template <bool roomy, class Index>
-GNOMON_WIDE_INLINE Index* fill_long_row(RunTables const& from, RowPart row, Index* at) noexcept {
+GNOMON_WIDE_INLINE Index* fill_long_row(RowRuns const& from, RowPart row, Index* at) noexcept {
     while (row.touched != 0) {
-        __m512i const column = row.next();
+        __m512i const column = next_column(row);
         for (std::uint32_t i = row.start; i < row.end; i += 32) {
             Runs32 runs;
             runs.read(from, i, row.end);
@@ -176,33 +158,27 @@ GNOMON_WIDE_INLINE Index* fill_long_row(RunTables const& from, RowPart row, Inde
 }
 
 template <bool roomy, class Index>
-GNOMON_WIDE_INLINE Index* fill_rows(RunTables const& from, std::size_t row, std::size_t row_end, Index* at) noexcept {
-    for (; row < row_end; ++row)
-        for (std::uint32_t word = 0; word < from.words; ++word) {
-            RowPart const part{from.start[row], from.start[row + 1], 32 * word, from.touched[row * from.words + word]};
-            switch ((part.end - part.start + 31) / 32) {
-                case 0: break;
-                case 1: at = fill_row<roomy, 1>(from, part, at); break;
-                case 2: at = fill_row<roomy, 2>(from, part, at); break;
-                case 3: at = fill_row<roomy, 3>(from, part, at); break;
-                default: at = fill_long_row<roomy>(from, part, at); break;
-            }
+GNOMON_WIDE_INLINE Index* fill_parts(RowRuns const& from, std::size_t first, std::size_t end, Index* at) noexcept {
+    for (RowPart const *part = from.parts.data() + first, *const last = from.parts.data() + end; part != last; ++part)
+        switch ((part->end - part->start + 31) / 32) {
+            case 1: at = fill_row<roomy, 1>(from, *part, at); break;
+            case 2: at = fill_row<roomy, 2>(from, *part, at); break;
+            case 3: at = fill_row<roomy, 3>(from, *part, at); break;
+            default: at = fill_long_row<roomy>(from, *part, at); break;
         }
     return at;
 }
 
-/// expects: `indices` of as many elements as the rows' last offset says.
+/// expects: `indices` of as many elements as the cells say.
 template <class Index>
 GNOMON_WIDE_TARGET void fill_by_rows(RowRuns const& runs, Index* indices) noexcept {
-    std::size_t const rows = runs.start.size() - 2;
-    RunTables const tables{runs.start.data(), runs.touched.data(), runs.first.data(), runs.count.data(), runs.light.data(),
-                           static_cast<std::uint32_t>(runs.touched.size() / rows)};
+    std::size_t const parts = runs.part_count;
     std::size_t roomy = 0;
     if constexpr (std::is_same_v<Index, std::uint16_t>) {
-        for (roomy = rows; roomy > 0 && runs.offset[rows] - runs.offset[roomy] < 32;) --roomy;
-        indices = fill_rows<true>(tables, 0, roomy, indices);
+        for (roomy = parts; roomy > 0 && runs.parts[parts - 1].list_end - runs.parts[roomy - 1].list_end < 32;) --roomy;
+        indices = fill_parts<true>(runs, 0, roomy, indices);
     }
-    fill_rows<false>(tables, roomy, rows, indices);
+    fill_parts<false>(runs, roomy, parts, indices);
 }
 
 GNOMON_WIDE_END
