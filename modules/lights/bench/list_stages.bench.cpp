@@ -89,7 +89,7 @@ void list_stages(benchmark::State& state) {
         }) - state.counters["2_reach"] - state.counters["3_spans"]);
         set("5_sort", least_us([&] { lights::detail::sort_by_rows({work.runs.data(), runs}, rows, work.by_rows); }));
         set("6_cells", least_us([&] {
-            lights::detail::cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
+            lights::detail::cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint32_t*>(cells.data()));
         }));
         set("7_fill", least_us([&] { lights::fill_lists<std::uint16_t>(work, indices); }));
         double const all = least_us([&] {

@@ -82,8 +82,9 @@ TEST_CASE("points in hard grids: lists by wide lanes are those one by one", "[li
 
 TEST_CASE("points in grids of every size: lists by wide lanes are those one by one", "[lights][property]") {
     test::Draw draw{22};
-    // Tables in one register, in two, in none; 32 columns and one more; more rows than a stream takes; long rows of runs.
-    math::ivec3 const sizes[] = {{1, 1, 1}, {15, 15, 15}, {16, 16, 16}, {31, 30, 30}, {32, 31, 31}, {33, 40, 17}, {70, 9, 40}, {3, 1100, 2}, {130, 3, 3}};
+    // Tables in one register, in two, in none; 32 columns and one more; as many rows as a stream takes, and one more; long rows of
+    // runs.
+    math::ivec3 const sizes[] = {{1, 1, 1}, {15, 15, 15}, {16, 16, 16}, {31, 30, 30}, {32, 31, 31}, {33, 40, 17}, {70, 9, 40}, {3, 1022, 3}, {2, 1023, 3}, {130, 3, 3}, {300, 2, 2}};
     std::size_t pairs = 0;
     for (math::ivec3 const& size : sizes)
         for (bool const perspective : {true, false}) pairs += compare_in_grid(draw, size, perspective, 40);

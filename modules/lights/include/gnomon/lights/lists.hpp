@@ -81,7 +81,7 @@ inline std::uint64_t lay_out(cull::RowGrid const& grid, std::size_t lights, bool
         work.by_rows.used = true;
         work.by_rows.lights = lights;
         sort_by_rows({work.runs.data(), work.run_count}, rows, work.by_rows);
-        return cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint64_t*>(cells.data()));
+        return cells_by_rows(rows, grid.columns, work.by_rows, reinterpret_cast<std::uint32_t*>(cells.data()));
     }
 #endif
     (void)lights, (void)lanes;

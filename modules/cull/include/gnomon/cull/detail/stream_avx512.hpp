@@ -12,7 +12,9 @@ namespace gnomon::cull::detail {
 
 /// Up to 64 balls and their stream. Elements: the ball in 6 bits, the border in 10, the slice in 16.
 struct Stream16 {
-    static constexpr std::uint32_t capacity = 2048, next_border = 1U << 6U, next_slice = 1U << 16U, most_rows = 1023, most_slices = 0xFFFF;
+    static constexpr std::uint32_t capacity = 2048, next_border = 1U << 6U;
+    /// The last border's number is below the largest: one more must not be the next slice's first.
+    static constexpr std::uint32_t most_rows = 1022, most_slices = 0xFFFF;
 
     Balls16 balls[4];
     std::uint32_t start[5] = {};  ///< of each sixteen's elements
@@ -24,7 +26,7 @@ struct Stream16 {
 
 /// Whether sixteen lanes are there, and a grid's rows and slices have the bits.
 [[nodiscard]] inline bool has_stream(RowGrid const& g) noexcept {
-    return has_wide_lanes() && g.rows <= Stream16::most_rows && g.slices <= Stream16::most_slices - 1;
+    return has_wide_lanes() && g.rows <= Stream16::most_rows && g.slices <= Stream16::most_slices;
 }
 
 /// Whether each of a grid's tables fits two registers.
@@ -68,7 +70,7 @@ GNOMON_WIDE_INLINE void find_reach(Tables16 const& t, Balls16 const& b, Reach16&
 
 GNOMON_WIDE_INLINE Lanes16 lanes_at(Stream16 const& stream, std::uint32_t i) noexcept {
     I16 const at = wide_load(stream.at + i);
-    return {at, shift_right<6>(at) & wide(Stream16::most_rows), shift_right<16>(at)};
+    return {at, shift_right<6>(at) & wide(1023U), shift_right<16>(at)};
 }
 
 /// Cuts what the stream has of its first `sixteens`, and empties it: `sink.reserve(n)`, then `sink.rows` of at most n rows in the

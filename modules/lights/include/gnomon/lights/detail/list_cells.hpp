@@ -45,14 +45,14 @@ GNOMON_WIDE_INLINE __m512i running_sums(__m512i a) noexcept {
 }
 
 /// Up to sixteen cells (offset, count). returns: the sum of the counts.
-GNOMON_WIDE_INLINE std::uint32_t write_cells(__m512i counts, std::uint32_t offset, std::uint32_t lanes, std::uint64_t* at) noexcept {
+GNOMON_WIDE_INLINE std::uint32_t write_cells(__m512i counts, std::uint32_t offset, std::uint32_t lanes, std::uint32_t* at) noexcept {
     __m512i const sums = running_sums(counts);
     __m512i const offsets = _mm512_add_epi32(_mm512_sub_epi32(sums, counts), _mm512_set1_epi32(static_cast<int>(offset)));
     __m512i const first = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
     __m512i const second = _mm512_add_epi32(first, _mm512_set1_epi32(8));
-    std::uint32_t const there = _bzhi_u32(0xFFFFU, lanes);
+    std::uint32_t const there = 0xFFFFU >> (lanes < 16 ? 16 - lanes : 0);
     _mm512_mask_storeu_epi64(at, static_cast<__mmask8>(there), _mm512_permutex2var_epi32(offsets, first, counts));
-    _mm512_mask_storeu_epi64(at + 8, static_cast<__mmask8>(there >> 8U), _mm512_permutex2var_epi32(offsets, second, counts));
+    _mm512_mask_storeu_epi64(at + 16, static_cast<__mmask8>(there >> 8U), _mm512_permutex2var_epi32(offsets, second, counts));
     return static_cast<std::uint32_t>(_mm_extract_epi32(_mm512_extracti32x4_epi32(sums, 3), 3));
 }
 
@@ -71,19 +71,19 @@ GNOMON_WIDE_INLINE __m512i count_over(RowRuns const& runs, std::uint32_t start, 
 }
 
 /// The cells of all rows, pairs of 32-bit offset and count, and the rows' parts. returns: the sum of the counts.
-GNOMON_WIDE_TARGET inline std::uint64_t cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& runs, std::uint64_t* cells) {
+GNOMON_WIDE_TARGET inline std::uint64_t cells_by_rows(std::size_t rows, std::uint32_t columns, RowRuns& runs, std::uint32_t* cells) {
     runs.parts.resize(rows * ((columns + 31) / 32));
     RowPart* part = runs.parts.data();
     std::uint64_t sum = 0;
-    for (std::size_t row = 0; row < rows; ++row, cells += columns) {
+    for (std::size_t row = 0; row < rows; ++row, cells += 2 * columns) {
         std::uint32_t const start = runs.start[row], end = runs.start[row + 1];
         for (std::uint32_t column = 0; column < columns; column += 32) {
             __m512i const counts = count_over(runs, start, end, column);
             std::uint32_t const left = columns - column;
-            std::uint64_t* const at = cells + column;
+            std::uint32_t* const at = cells + 2 * column;
             sum += write_cells(_mm512_cvtepu16_epi32(_mm512_castsi512_si256(counts)), static_cast<std::uint32_t>(sum), left, at);
             __m512i const others = _mm512_cvtepu16_epi32(_mm512_extracti64x4_epi64(counts, 1));
-            if (left > 16) sum += write_cells(others, static_cast<std::uint32_t>(sum), left - 16, at + 16);
+            if (left > 16) sum += write_cells(others, static_cast<std::uint32_t>(sum), left - 16, at + 32);
             std::uint32_t const touched = _mm512_test_epi16_mask(counts, counts);
             *part = {start, end, column, touched, sum};
             part += touched != 0 ? 1 : 0;
