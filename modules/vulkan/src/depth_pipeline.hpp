@@ -5,7 +5,7 @@
 #include <gnomon/vulkan/descriptors.hpp>
 #include <gnomon/vulkan/target.hpp>
 
-#include "fragment_pipeline.hpp"
+#include "fragment_set.hpp"
 
 #include <array>
 
@@ -15,23 +15,22 @@ class DepthPipeline {
   public:
     DepthPipeline() noexcept = default;
 
-    /// Compares the shader's own words with the kernel, then makes the layouts.
-    ///
-    /// returns: the pipeline, or `shader_rejected` with what differs.
+    /// expects: the kernel outlives the pipeline.
+    /// returns: the pipeline, or what `FragmentSet::make` says.
     [[nodiscard]] static Result<DepthPipeline> make(GpuRef const& gpu, backend::DepthKernel const& kernel);
 
     /// The pipeline of a format, made when first asked for.
     [[nodiscard]] Result<VkPipeline> get(backend::DepthFormat format);
     /// Binds the kernel's set and pushes its constants.
-    [[nodiscard]] Result<core::Done> bind(VkCommandBuffer commands, DescriptorRing& sets, FragmentInputs const& inputs) const;
+    [[nodiscard]] Result<core::Done> bind(VkCommandBuffer commands, DescriptorRing& sets, FragmentInputs const& inputs) const {
+        return set_.bind(commands, sets, inputs);
+    }
     /// Records the rendering of `rect` in one layer. What the target holds elsewhere stays; nothing, where it holds nothing.
     void draw(VkCommandBuffer commands, VkPipeline pipeline, Target& target, backend::DepthCall const& call) const;
 
   private:
     GpuRef gpu_;
-    backend::DepthKernel const* kernel_ = nullptr;
-    UniqueSetLayout set_layout_;
-    UniquePipelineLayout layout_;
+    detail::FragmentSet set_;
     std::array<UniquePipeline, 2> pipelines_;
 };
 
