@@ -11,7 +11,7 @@ namespace gnomon::pipeline {
 
 namespace {
 
-void look_up(backend::KernelData const& data, std::size_t begin, std::size_t end) {
+void look_up_cascades(backend::KernelData const& data, std::size_t begin, std::size_t end) {
     auto const c = data.constant<CascadeLookupStd>();
     auto const samples = data.buffer<sample::ViewSample const>(0);
     cascade::CascadeDepths const& depths = data.buffer<cascade::CascadeDepths const>(6)[0];
@@ -27,7 +27,7 @@ void look_up(backend::KernelData const& data, std::size_t begin, std::size_t end
 }  // namespace
 
 constinit backend::Kernel const cascade_lookup_kernel{.name = "cascade_lookup",
-                                                      .cpu = &look_up,
+                                                      .cpu = &look_up_cascades,
                                                       .spirv = cascade_lookup_comp,
                                                       .buffers = 7,
                                                       .targets = 1,

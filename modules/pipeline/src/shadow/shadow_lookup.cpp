@@ -13,7 +13,7 @@ namespace gnomon::pipeline {
 
 namespace {
 
-void look_up(backend::KernelData const& data, std::size_t begin, std::size_t end) {
+void look_up_lights(backend::KernelData const& data, std::size_t begin, std::size_t end) {
     auto const c = data.constant<ShadowLookupStd>();
     auto const samples = data.buffer<sample::ViewSample const>(0);
     math::vec3 const light(c.light[0], c.light[1], c.light[2]);
@@ -37,7 +37,7 @@ ShadowLookupStd to_std(Frame const& frame, ShadowMaps const& shadow, ShadowMapOp
 }
 
 constinit backend::Kernel const shadow_lookup_kernel{.name = "shadow_lookup",
-                                                     .cpu = &look_up,
+                                                     .cpu = &look_up_lights,
                                                      .spirv = shadow_lookup_comp,
                                                      .buffers = 6,
                                                      .targets = 1,

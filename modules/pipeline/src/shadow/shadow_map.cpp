@@ -52,7 +52,7 @@ Result<TechniqueOutput> run_shadow_map(TechniqueRun const& on) {
     return output;
 }
 
-Result<core::Done> examine(TechniqueRun const& on, TechniqueOutput& output) { return examine_maps(on, on.workspace.state().shadow, output); }
+Result<core::Done> examine_shadow_map(TechniqueRun const& on, TechniqueOutput& output) { return examine_maps(on, on.workspace.state().shadow, output); }
 
 }  // namespace
 
@@ -160,7 +160,7 @@ backend::PassLayer layer_of(Frame const& frame, ShadowMaps const& shadow, Shadow
 
 Technique shadow_map_technique() noexcept {
     return {"shadow-map", "a depth map from the light, filtered by percentage-closer comparison", shadow_map_params,
-            &run_shadow_map, &examine};
+            &run_shadow_map, &examine_shadow_map};
 }
 
 }  // namespace gnomon::pipeline

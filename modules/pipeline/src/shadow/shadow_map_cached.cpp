@@ -113,7 +113,7 @@ Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
     return output;
 }
 
-Result<core::Done> examine(TechniqueRun const& on, TechniqueOutput& output) {
+Result<core::Done> examine_cached(TechniqueRun const& on, TechniqueOutput& output) {
     ShadowMaps& shadow = on.workspace.state().cached_lights.shadow;
     Verbs verbs(on.device);
     fit_draws(verbs, on.frame, shadow, read_shadow_map_options(on.params).cull);
@@ -125,7 +125,7 @@ Result<core::Done> examine(TechniqueRun const& on, TechniqueOutput& output) {
 
 Technique shadow_map_cached_technique() noexcept {
     return {"shadow-map-cached", "the same maps; the image of static casters is kept until one of them or the light changes", params_info,
-            &run_cached, &examine, false, true};
+            &run_cached, &examine_cached, false, true};
 }
 
 }  // namespace gnomon::pipeline
