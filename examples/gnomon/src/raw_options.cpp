@@ -87,7 +87,7 @@ void add_run(CLI::App& app, RawOptions& raw) {
         ->group(runs);
     app.add_flag("--no-truth", raw.no_truth, "pictures and times only: trace no exact shadows, so know no errors")
         ->group(runs);
-    app.add_flag("--debug", raw.debug, "pictures of how each run got there too, where its technique has any: csm, csm-cached, csm-scroll")
+    app.add_flag("--debug", raw.debug, "pictures of how each run got there too, where its technique has any: those with cascades, shadow-map-cached")
         ->group("Output");
     add_running(app, raw);
 }

@@ -172,7 +172,7 @@ TEST_CASE("a path's report sums errors and counts and takes the median time", "[
 TEST_CASE("with --debug, techniques that keep maps show them: files, a film, the page", "[command][flight]") {
     TestFolder const folder;
     std::string const scene = write_sliding_table(folder);
-    std::vector<std::string> const run = {scene, "--sun", "0.3,-1,0.2", "--techniques", "shadow-map,csm-scroll", "--param", "csm-scroll.resolution=64",
+    std::vector<std::string> const run = {scene, "--sun", "0.3,-1,0.2", "--techniques", "shadow-map,csm-scroll,shadow-map-cached", "--param", "csm-scroll.resolution=64",
                                           "--size", "32x24", "--debug"};
     auto const with = [&](std::vector<std::string> words, std::vector<std::string> const& more) {
         words.insert(words.end(), run.begin(), run.end());
@@ -182,7 +182,7 @@ TEST_CASE("with --debug, techniques that keep maps show them: files, a film, the
         CHECK(ended.exit_code == 0);
     };
     with({"flythrough"}, {"--frames", "2", "--no-truth", "--out", "film"});
-    for (char const* name : {"csm-scroll-resolution-64.maps.0001.png", "csm-scroll-resolution-64.tint.0000.png", "csm-scroll-resolution-64.maps.webp"}) {
+    for (char const* name : {"csm-scroll-resolution-64.maps.0001.png", "csm-scroll-resolution-64.tint.0000.png", "csm-scroll-resolution-64.maps.webp", "shadow-map-cached.maps.0001.png"}) {
         CAPTURE(name);
         CHECK(fs::exists(folder / "film" / name));
     }

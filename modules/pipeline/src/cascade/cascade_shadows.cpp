@@ -220,12 +220,6 @@ void CascadeShadows::draw_actives(Verbs& verbs, Frame const& frame, std::uint32_
     draw_objects(verbs, working_.get(), layer, map.plan.actives, work_[k]);
 }
 
-void CascadeShadows::note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, std::vector<std::byte>& bytes) {
-    backend::Rect const whole{0, 0, shape_.size_px.x, shape_.size_px.y};
-    bytes.resize(texels(frame_.cascades[0].volume) * (shape_.format == backend::DepthFormat::unorm16 ? 2U : 4U));
-    verbs(verbs.device().read({target, layer, backend::Plane::depth, whole}, bytes));
-}
-
 void CascadeShadows::note_kept(Verbs& verbs, std::vector<MapSteps>& steps) {
     verbs.device().stage("");
     steps.assign(frame_.count, {});
@@ -233,17 +227,16 @@ void CascadeShadows::note_kept(Verbs& verbs, std::vector<MapSteps>& steps) {
         Map const& map = maps_[k];
         bool const keeps = shape_.reuse != CascadeReuse::none && map.plan.action != cache::MapAction::redraw;
         std::int32_t const size = shape_.size_px.x;
-        steps[k].exposed = keeps ? cascade::exposed_by({map.plan.shift.x, map.plan.shift.y, 0}, size)
-                                 : cascade::ExposedRects{1, {cascade::TexelRect{0, 0, size, size}, cascade::TexelRect{}}};
-        if (keeps) note(verbs, map.content[map.shown].get(), 0, steps[k].kept);
+        steps[k].exposed = keeps ? cascade::exposed_by({map.plan.shift.x, map.plan.shift.y, 0}, size) : all_exposed(size);
+        if (keeps) note(verbs, map.content[map.shown].get(), 0, format(), steps[k].kept);
     }
 }
 
 void CascadeShadows::note_drawn(Verbs& verbs, std::vector<MapSteps>& steps) {
     verbs.device().stage("");
     for (std::uint32_t k = 0; k < frame_.count; ++k) {
-        if (shape_.reuse != CascadeReuse::none) note(verbs, maps_[k].content[maps_[k].shown].get(), 0, steps[k].content);
-        note(verbs, working_.get(), k, steps[k].finished);
+        if (shape_.reuse != CascadeReuse::none) note(verbs, maps_[k].content[maps_[k].shown].get(), 0, format(), steps[k].content);
+        note(verbs, working_.get(), k, format(), steps[k].finished);
     }
 }
 

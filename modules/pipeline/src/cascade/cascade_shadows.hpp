@@ -100,8 +100,6 @@ class CascadeShadows {
     void draw_actives(Verbs& verbs, Frame const& frame, std::uint32_t k);
     void note_kept(Verbs& verbs, std::vector<MapSteps>& steps);
     void note_drawn(Verbs& verbs, std::vector<MapSteps>& steps);
-    /// Reads one layer back.
-    void note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, std::vector<std::byte>& bytes);
 
     CascadeOptions options_;
     Casters casters_;

@@ -144,17 +144,12 @@ void count(CascadeShadows const& shadows, CascadeOptions const& options, std::si
     output.bytes = {{"shadow_maps", texels * (options.format == backend::DepthFormat::unorm16 ? 2U : 4U)}};
 }
 
-/// Four that differ for most eyes, then the same paler.
-constexpr std::array<math::vec3, cascade::max_cascades> tints{
-    math::vec3(1.0F, 0.25F, 0.20F), math::vec3(0.20F, 0.80F, 0.25F), math::vec3(0.25F, 0.45F, 1.0F), math::vec3(1.0F, 0.75F, 0.10F),
-    math::vec3(1.0F, 0.65F, 0.60F), math::vec3(0.60F, 0.95F, 0.62F), math::vec3(0.65F, 0.78F, 1.0F), math::vec3(1.0F, 0.92F, 0.60F)};
-
 /// The colour of each sample's cascade, by the choice that the lookup makes; white beyond the last.
 std::vector<math::vec3> tint_of(Frame const& frame, cascade::CascadeFrame const& cascades) {
     cascade::CascadeDepths const splits = cascade::cascade_depths(cascades);
     math::vec3 const eye = math::to_float(frame.view.eye_m - frame.geometry->origin_m);
     math::vec3 const sight = -math::to_float(frame.view.back);
-    auto const color = [&](std::uint32_t k) { return k < cascades.count ? tints[k] : math::vec3(1.0F); };
+    auto const color = [&](std::uint32_t k) { return k < cascades.count ? map_tints[k] : math::vec3(1.0F); };
     std::vector<math::vec3> tint;
     for (math::vec3 const& position : frame.samples.position) {
         math::vec3 const way = position - eye;

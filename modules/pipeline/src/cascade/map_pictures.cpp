@@ -111,6 +111,12 @@ Texel shown_at(MapSteps const& steps, Column const& column, std::int32_t size, s
 
 }  // namespace
 
+void note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, MapFormat const& format, std::vector<std::byte>& bytes) {
+    auto const side = static_cast<std::size_t>(format.size_px);
+    bytes.resize(side * side * (format.format == backend::DepthFormat::unorm16 ? 2U : 4U));
+    verbs(verbs.device().read({target, layer, backend::Plane::depth, {0, 0, format.size_px, format.size_px}}, bytes));
+}
+
 Image picture_of_maps(std::span<MapSteps const> maps, MapFormat const& format) {
     std::int32_t const step = (format.size_px + most_px - 1) / most_px;
     std::int32_t const cell = (format.size_px + step - 1) / step;

@@ -6,6 +6,9 @@
 #include <gnomon/math/view.hpp>
 #include <gnomon/pipeline/image.hpp>
 
+#include "../staged.hpp"
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +29,19 @@ struct MapFormat {
     backend::DepthFormat format = backend::DepthFormat::unorm16;
     math::Depth depth = math::Depth::forward;
 };
+
+/// Reads a layer back, once the verbs before it are done.
+void note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, MapFormat const& format, std::vector<std::byte>& bytes);
+
+/// The whole map, of one that kept nothing.
+[[nodiscard]] inline cascade::ExposedRects all_exposed(std::int32_t size_px) noexcept {
+    return {1, {cascade::TexelRect{0, 0, size_px, size_px}, cascade::TexelRect{}}};
+}
+
+/// Colours of maps in pictures, linear RGB: four that differ for most eyes, then the same paler.
+inline constexpr std::array<math::vec3, 8> map_tints{
+    math::vec3(1.0F, 0.25F, 0.20F), math::vec3(0.20F, 0.80F, 0.25F), math::vec3(0.25F, 0.45F, 1.0F), math::vec3(1.0F, 0.75F, 0.10F),
+    math::vec3(1.0F, 0.65F, 0.60F), math::vec3(0.60F, 0.95F, 0.62F), math::vec3(0.65F, 0.78F, 1.0F), math::vec3(1.0F, 0.92F, 0.60F)};
 
 /// A column for each map. From the top: the finished map in grey, what active casters cover in amber; what was kept, in
 /// blue; what was drawn to the static casters' map, in red over what was kept. Darker is nearer to the light; white is

@@ -260,11 +260,30 @@ void CachedLights::draw_actives(Verbs& verbs, ShadowMaps const& shadow) {
     work_.draw_calls += drawn.draw_calls;
 }
 
-void CachedLights::draw(Verbs& verbs, ShadowMaps const& shadow) {
+void CachedLights::note_kept(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>& steps) {
+    steps.assign(maps_.size(), {});
+    for (std::uint32_t m = 0; m < maps_.size(); ++m) {
+        bool const anew = !maps_[m].waits && maps_[m].plan.action == cache::MapAction::redraw;
+        if (anew) steps[m].exposed = all_exposed(shadow.config.size_px.x);
+        else note(verbs, content_.get(), m, format_of(shadow), steps[m].kept);
+    }
+}
+
+void CachedLights::note_drawn(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>& steps) {
+    verbs.device().stage("");
+    for (std::uint32_t m = 0; m < maps_.size(); ++m) {
+        note(verbs, content_.get(), m, format_of(shadow), steps[m].content);
+        note(verbs, shadow.target.get(), m, format_of(shadow), steps[m].finished);
+    }
+}
+
+void CachedLights::draw(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>* steps) {
+    if (steps != nullptr) note_kept(verbs, shadow, *steps);
     verbs.device().stage("static");
     draw_statics(verbs, shadow);
     verbs.device().stage("active");
     draw_actives(verbs, shadow);
+    if (steps != nullptr) note_drawn(verbs, shadow, *steps);
     for (Map& map : maps_)
         if (!map.waits) map.cached.commit();
 }

@@ -8,6 +8,7 @@
 #include <gnomon/cache/cached_map.hpp>
 
 #include "../cascade/casters.hpp"
+#include "../cascade/map_pictures.hpp"
 #include "shadow_map.hpp"
 
 #include <cstdint>
@@ -70,7 +71,8 @@ class CachedLights {
     /// expects: `follow` and `fit_content` of the same frame before; `shadow` has the layers of that light; `draw` afterwards.
     void plan(ShadowMaps& shadow, MapsWanted const& wanted);
     /// Brings the maps up to date, in stages "static" and "active".
-    void draw(Verbs& verbs, ShadowMaps const& shadow);
+    /// `steps`: where not null, what each map holds on the way is read back into it, in no stage; filled by `finish`.
+    void draw(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>* steps = nullptr);
     /// Gives up all maps: after a failure nobody knows what they hold.
     void forget() noexcept;
 
@@ -104,6 +106,8 @@ class CachedLights {
     void keep(Verbs& verbs, MaskedList& list);
     void draw_statics(Verbs& verbs, ShadowMaps const& shadow);
     void draw_actives(Verbs& verbs, ShadowMaps const& shadow);
+    void note_kept(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>& steps);
+    void note_drawn(Verbs& verbs, ShadowMaps const& shadow, std::vector<MapSteps>& steps);
 
     Casters casters_;
     std::uint64_t tick_ = 0;

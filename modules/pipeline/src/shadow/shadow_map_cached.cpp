@@ -87,6 +87,18 @@ Result<std::vector<StageTime>> plan_maps(Verbs& verbs, TechniqueRun const& on, S
     return std::vector<StageTime>{{"fit", fit_ms}, {"plan", watch.lap_ms()}};
 }
 
+constexpr std::string_view maps_caption =
+    "A column for each map: the only one, or the faces of a cube. Top: the finished maps, active casters in amber. Middle: what was kept of the static "
+    "casters' map, in blue. Bottom: what was drawn to it, in red; pale red where nothing was kept and nothing drawn.";
+
+/// The colour of the map that each sample looks into.
+std::vector<math::vec3> tint_of(Frame const& frame, ShadowMaps const& shadow) {
+    std::vector<math::vec3> tint;
+    for (std::size_t i = 0; i < frame.samples.size(); ++i)
+        tint.push_back(frame.reached[i] == 0 ? math::vec3(1.0F) : map_tints[map_of(frame.samples.position[i], shadow.at.position, shadow.views.size())]);
+    return tint;
+}
+
 Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
     ShadowMapOptions const options = read_shadow_map_options(on.params);
     std::size_t const n = on.frame.samples.size();
@@ -99,7 +111,8 @@ Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
     fit_answers(verbs, shadow, n);
     auto const planned = plan_maps(verbs, on, options);
     if (!planned) return core::Failure(planned.failure());
-    runs.lights.draw(verbs, shadow);
+    std::vector<MapSteps> steps;
+    runs.lights.draw(verbs, shadow, on.debug ? &steps : nullptr);
     on.device.stage("lookup");
     look_up_all(verbs, on, shadow, options);
     on.device.stage("");
@@ -110,6 +123,10 @@ Result<TechniqueOutput> run_cached(TechniqueRun const& on) {
     }
     output->stages.insert(output->stages.begin(), planned->begin(), planned->end());
     count(runs.lights, options, n, *output);
+    if (on.debug) {
+        output->pictures.push_back({"maps", maps_caption, picture_of_maps(steps, format_of(shadow))});
+        output->tint = tint_of(on.frame, shadow);
+    }
     return output;
 }
 

@@ -5,6 +5,7 @@
 #include <gnomon/math/view.hpp>
 #include <gnomon/shadow/map_view.hpp>
 
+#include "../cascade/map_pictures.hpp"
 #include "../detail.hpp"
 #include "../staged.hpp"
 
@@ -38,5 +39,11 @@ struct ShadowMaps {
     StagedBuffer visibility;
     StagedBuffer bias_m;
 };
+
+/// Of pictures of them.
+[[nodiscard]] inline MapFormat format_of(ShadowMaps const& shadow) noexcept {
+    math::Depth const depth = shadow.views.empty() ? math::Depth::forward : shadow.views.front().depth;
+    return {shadow.config.size_px.x, shadow.config.depth, depth};
+}
 
 }  // namespace gnomon::pipeline
