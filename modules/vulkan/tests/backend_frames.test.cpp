@@ -117,11 +117,7 @@ TEST_CASE("whichever call fails while every verb is used, nothing leaks and the 
 TEST_CASE("the same for every single call", "[vulkan][backend][.full]") { fail_every(1); }
 
 TEST_CASE("a box counts samples on the device where it does on the CPU, and nowhere else", "[vulkan][backend]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu);
+    DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu{core::ExecutorRef(serial)};
     Soup const soup = make_soup(5, 60, 1.2F);
@@ -135,7 +131,7 @@ TEST_CASE("a box counts samples on the device where it does on the CPU, and nowh
     }
     boxes[3] = math::Aabb{};
     std::vector<std::uint32_t> counts[2];
-    backend::Backend* const both[] = {&cpu, gpu->get()};
+    backend::Backend* const both[] = {&cpu, on.gpu.get()};
     for (int i = 0; i < 2; ++i) {
         backend::Backend& b = *both[i];
         auto const list = b.keep({&draw, 1});
@@ -160,5 +156,5 @@ TEST_CASE("a box counts samples on the device where it does on the CPU, and nowh
     }
     CHECK(seen > 10);
     CHECK(seen < 190);
-    CHECK(device->take_messages().substr(0, 500) == "");
+    CHECK(on.device->take_messages().substr(0, 500) == "");
 }

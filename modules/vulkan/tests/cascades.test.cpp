@@ -43,17 +43,13 @@ struct Flight {
 };
 
 void fly_on_device(Flight const& flight) {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::test::TestHost host(*device);
-    auto const made = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(made.has_value());
+    vulkan::test::DeviceBackend on;
     {
         core::SerialExecutor executor;
         raster::CpuBackend cpu(executor);
         test::Town town(flight.path, flight.moving_percent);
-        backend::Backend& redrawing = flight.beside_itself ? static_cast<backend::Backend&>(**made) : cpu;
-        test::CascadeRunner csm(redrawing, "csm", flight.settings), scroll(**made, "csm-scroll", flight.settings);
+        backend::Backend& redrawing = flight.beside_itself ? static_cast<backend::Backend&>(*on.gpu) : cpu;
+        test::CascadeRunner csm(redrawing, "csm", flight.settings), scroll(*on.gpu, "csm-scroll", flight.settings);
         csm.device.size_px = scroll.device.size_px = flight.size_px;
         Apart sum;
         for (std::size_t i = flight.first; i < flight.end; ++i)
@@ -67,7 +63,7 @@ void fly_on_device(Flight const& flight) {
         CHECK(sum.other_samples == 0);
         CHECK(sum.scrolls >= 2 * (flight.end - flight.first - 1));
     }
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
 
 }  // namespace

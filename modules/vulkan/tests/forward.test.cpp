@@ -91,11 +91,7 @@ std::size_t differing(std::vector<math::vec3> const& a, std::vector<math::vec3> 
 }  // namespace
 
 TEST_CASE("forward shading gives the CPU's image on a device, through textures, holes and glass", "[vulkan][lighting][forward]") {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::test::TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    vulkan::test::DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     PaintedTree const tree;
@@ -104,7 +100,7 @@ TEST_CASE("forward shading gives the CPU's image on a device, through textures, 
     auto const frame = pipeline::make_frame(tree.scene, tree.geometry, shot, serial);
     REQUIRE(frame.has_value());
     Painted const ours(tree, *frame, cpu);
-    Painted const theirs(tree, *frame, **gpu);
+    Painted const theirs(tree, *frame, *on.gpu);
     // A pixel may differ only where two surfaces have nearly one depth, or an alpha is at its cutoff.
     for (std::size_t i = 0; i < ours.opaque.size(); ++i) {
         CAPTURE(i);
@@ -124,5 +120,5 @@ TEST_CASE("forward shading gives the CPU's image on a device, through textures, 
     std::size_t lit = 0;
     for (math::vec3 const& c : ours.glass) lit += c != math::vec3(0.0F) ? 1U : 0U;
     CHECK(lit > ours.opaque[0].size());  // glass before the background too
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }

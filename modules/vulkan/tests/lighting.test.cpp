@@ -33,11 +33,7 @@ pipeline::LightingOutput lit(pipeline::LightingTechnique const& technique, pipel
 }  // namespace
 
 TEST_CASE("lighting techniques give the CPU's image on a device, to the bit, and evaluate the same lights", "[vulkan][lighting]") {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::test::TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    vulkan::test::DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     auto const scene = scene::make_procedural({.name = "atrium", .lights = "400"});
@@ -54,7 +50,7 @@ TEST_CASE("lighting techniques give the CPU's image on a device, to the bit, and
             if (technique.name.find("forward") != std::string_view::npos) settings.clear();  // no G-buffer
             if (settings.empty() && format == "f16") continue;
             auto const ours = lit(technique, *frame, settings, cpu);
-            auto const theirs = lit(technique, *frame, settings, **gpu);
+            auto const theirs = lit(technique, *frame, settings, *on.gpu);
             REQUIRE(ours.computations.size() == theirs.computations.size());
             std::size_t otherwise = 0;
             for (std::size_t i = 0; i < ours.computations.size(); ++i) otherwise += ours.computations[i] != theirs.computations[i] ? 1U : 0U;
@@ -69,15 +65,11 @@ TEST_CASE("lighting techniques give the CPU's image on a device, to the bit, and
             for (std::size_t i = 0; i < ours.radiance.size(); ++i) differ += ours.radiance[i] != theirs.radiance[i] ? 1U : 0U;
             CHECK(differ == 0);
         }
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
 
 TEST_CASE("more lights than a tile's list holds, or an invocation may loop over, give the CPU's image on a device too", "[vulkan][lighting]") {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::test::TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    vulkan::test::DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     auto const scene = scene::make_procedural({.name = "atrium", .lights = "2500"});
@@ -91,13 +83,13 @@ TEST_CASE("more lights than a tile's list holds, or an invocation may loop over,
     for (std::string const name : {"tiled-deferred-single", "tiled-deferred-raster"}) {
         pipeline::LightingTechnique const& technique = *pipeline::find_lighting_technique(name).value();
         auto const ours = lit(technique, *frame, {{"tile", "128"}}, cpu);
-        auto const theirs = lit(technique, *frame, {{"tile", "128"}}, **gpu);
+        auto const theirs = lit(technique, *frame, {{"tile", "128"}}, *on.gpu);
         CHECK(*std::max_element(ours.computations.begin(), ours.computations.end()) > 1024);
         CHECK((ours.computations == theirs.computations));
         CHECK((ours.radiance == theirs.radiance));
         CHECK((ours.radiance == least.radiance));
     }
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
 
 namespace {
@@ -121,11 +113,7 @@ struct CrowdedCorner {
 }  // namespace
 
 TEST_CASE("lights beyond what an invocation may loop over are evaluated all the same, or refused", "[vulkan][lighting]") {
-    auto const device = vulkan::test::Device::make();
-    REQUIRE(device != nullptr);
-    vulkan::test::TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    vulkan::test::DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     constexpr std::uint32_t bulbs = 70'000;
@@ -140,7 +128,7 @@ TEST_CASE("lights beyond what an invocation may loop over are evaluated all the 
         CAPTURE(technique.name);
         auto const params = pipeline::make_params(technique, {}).value();
         pipeline::Workspace workspace;
-        auto const theirs = technique.run({*frame, corner.scene.lights, params, workspace, **gpu, serial});
+        auto const theirs = technique.run({*frame, corner.scene.lights, params, workspace, *on.gpu, serial});
         if (!theirs) {
             CHECK(theirs.failure().message.find("70000 lights") != std::string::npos);
             ++refused;
@@ -151,6 +139,6 @@ TEST_CASE("lights beyond what an invocation may loop over are evaluated all the 
         CHECK((ours.computations == theirs->computations));
         CHECK((ours.radiance == theirs->radiance));
     }
-    CHECK(refused == (gpu.value()->limits().loop_rounds < bulbs ? 4U : 0U));  // forward shading: one fragment, one loop
-    CHECK(device->take_messages() == "");
+    CHECK(refused == (on.gpu->limits().loop_rounds < bulbs ? 4U : 0U));  // forward shading: one fragment, one loop
+    CHECK(on.device->take_messages() == "");
 }

@@ -316,11 +316,7 @@ TEST_CASE("integer passes leave out on the device what they leave out on the CPU
 }
 
 TEST_CASE("the verb draws on the device what it draws on the CPU, and refuses the same", "[vulkan][backend][ortho]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu);
+    DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu{core::ExecutorRef(serial)};
     backend::TargetConfig const config{.size_px = {96, 80}, .layers = 30, .depth = backend::DepthFormat::unorm16};
@@ -331,7 +327,7 @@ TEST_CASE("the verb draws on the device what it draws on the CPU, and refuses th
     copies[1].instances = core::StridedSpan<math::mat4>(std::span<math::mat4 const>(none));
     std::vector<std::uint16_t> images[2];
     std::vector<std::string> words[2];
-    backend::Backend* const both[] = {&cpu, gpu->get()};
+    backend::Backend* const both[] = {&cpu, on.gpu.get()};
     for (std::size_t i = 0; i < 2; ++i) {
         backend::Backend& b = *both[i];
         auto const list = b.keep(frame.scene.draws);
@@ -365,7 +361,7 @@ TEST_CASE("the verb draws on the device what it draws on the CPU, and refuses th
     CHECK(words[0] == words[1]);
     CHECK(words[1][0] == "");
     CHECK(words[1][1] != "");
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
 
 TEST_CASE("without 64-bit floats or integers the verb says what is missing", "[vulkan][backend][ortho]") {

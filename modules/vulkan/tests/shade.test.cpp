@@ -113,17 +113,13 @@ struct Tinted {
 }  // namespace
 
 TEST_CASE("fragments get the CPU's colours on a device, in the CPU's order", "[vulkan][shade]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu(serial);
     for (math::Depth const direction : {math::Depth::reversed, math::Depth::forward}) {
         Soup const soup = make_soup(direction == math::Depth::reversed ? 11U : 12U, 120, 0.8F);
         Tinted const ours(cpu, soup, direction);
-        Tinted const theirs(**gpu, soup, direction);
+        Tinted const theirs(*on.gpu, soup, direction);
         REQUIRE(ours.images.size() == theirs.images.size());
         for (std::size_t i = 0; i < ours.images.size(); ++i) {
             CAPTURE(i);
@@ -137,27 +133,23 @@ TEST_CASE("fragments get the CPU's colours on a device, in the CPU's order", "[v
             CHECK(shaded > 1000);
         }
     }
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
 
 TEST_CASE("a fragment kernel whose shader is otherwise than it says is refused", "[vulkan][shade]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu.has_value());
+    DeviceBackend on;
     Soup const soup = make_soup(1, 4, 0.5F);
     backend::Draw const draw = soup.draw();
-    auto const list = *(*gpu)->keep({&draw, 1});
-    auto const target = *(*gpu)->make_target({.size_px = tinted_px, .color = true});
+    auto const list = *on.gpu->keep({&draw, 1});
+    auto const target = *on.gpu->make_target({.size_px = tinted_px, .color = true});
     static constexpr backend::FragmentKernel no_buffers{.name = "none", .cpu = &tint_fragments, .spirv = vulkan::test::shade_colors_frag};
     static constexpr backend::FragmentKernel no_gpu_half{.name = "host", .cpu = &tint_fragments, .spirv = {}};
     for (backend::FragmentKernel const* const kernel : {&no_buffers, &no_gpu_half}) {
-        auto const refused = (*gpu)->shade(list, target, layer_of(camera(tinted_px)), *kernel, {});
+        auto const refused = on.gpu->shade(list, target, layer_of(camera(tinted_px)), *kernel, {});
         REQUIRE_FALSE(refused.has_value());
         CHECK(refused.failure().code == backend::Error::missing_feature);
         CHECK(refused.failure().message.find(kernel->name) != std::string::npos);
     }
-    REQUIRE((*gpu)->finish());
-    CHECK(device->take_messages() == "");
+    REQUIRE(on.gpu->finish());
+    CHECK(on.device->take_messages() == "");
 }

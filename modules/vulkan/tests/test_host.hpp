@@ -3,9 +3,11 @@
 
 #include "test_device.hpp"
 
+#include <gnomon/check/check.hpp>
 #include <gnomon/vulkan/backend.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 namespace gnomon::vulkan::test {
@@ -36,6 +38,25 @@ struct TestHost {
     std::uint64_t submits = 0;
     VkResult begin_result = VK_SUCCESS;   ///< Of the next begin.
     VkResult submit_result = VK_SUCCESS;  ///< Of the next submit.
+};
+
+/// The tests' device, a host, and a backend over both.
+struct DeviceBackend {
+    std::unique_ptr<Device> device = Device::make();
+    TestHost host{found(device)};
+    std::unique_ptr<Backend> gpu;
+
+    explicit DeviceBackend(OrthoPipelinesConfig const& ortho = {}) {
+        auto made = Backend::make(device->gpu(), host.host(), ortho);
+        REQUIRE(made.has_value());
+        gpu = *std::move(made);
+    }
+
+  private:
+    static Device& found(std::unique_ptr<Device> const& device) {
+        REQUIRE(device != nullptr);
+        return *device;
+    }
 };
 
 }  // namespace gnomon::vulkan::test

@@ -120,26 +120,22 @@ struct RampRun {
 }  // namespace
 
 TEST_CASE("depth kernels write on the device what they write on the CPU", "[vulkan][backend][depth_kernel]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu);
+    DeviceBackend on;
     core::SerialExecutor serial;
     raster::CpuBackend cpu{core::ExecutorRef(serial)};
     for (auto const format : {backend::DepthFormat::f32, backend::DepthFormat::unorm16}) {
         RampRun const ours(cpu, format);
-        RampRun const theirs(**gpu, format);
+        RampRun const theirs(*on.gpu, format);
         CHECK(ours.layers == theirs.layers);
         CHECK(ours.layers[0] != ours.layers[2]);
         CHECK(ours.words == theirs.words);
         CHECK(ours.words[2] == "");
     }
-    std::uint64_t const made = device->live().calls;
-    auto const scroll = (*gpu)->write_depth(scroll_map_kernel, {});
+    std::uint64_t const made = on.device->live().calls;
+    auto const scroll = on.gpu->write_depth(scroll_map_kernel, {});
     CHECK_FALSE(scroll);  // no such target
-    CHECK(device->live().calls == made);
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->live().calls == made);
+    CHECK(on.device->take_messages() == "");
 }
 
 namespace {
@@ -186,15 +182,11 @@ std::uint64_t scroll_differences(backend::Backend& b, Random& random, backend::D
 }  // namespace
 
 TEST_CASE("a map scrolled by a depth kernel is the map scrolled on the CPU", "[vulkan][backend][depth_kernel]") {
-    auto const device = Device::make();
-    REQUIRE(device != nullptr);
-    TestHost host(*device);
-    auto const gpu = vulkan::Backend::make(device->gpu(), host.host());
-    REQUIRE(gpu);
+    DeviceBackend on;
     Random random{21};
     for (math::Depth const depth : {math::Depth::forward, math::Depth::reversed}) {
-        CHECK(scroll_differences<std::uint16_t>(**gpu, random, backend::DepthFormat::unorm16, depth) == 0);
-        CHECK(scroll_differences<float>(**gpu, random, backend::DepthFormat::f32, depth) == 0);
+        CHECK(scroll_differences<std::uint16_t>(*on.gpu, random, backend::DepthFormat::unorm16, depth) == 0);
+        CHECK(scroll_differences<float>(*on.gpu, random, backend::DepthFormat::f32, depth) == 0);
     }
-    CHECK(device->take_messages() == "");
+    CHECK(on.device->take_messages() == "");
 }
