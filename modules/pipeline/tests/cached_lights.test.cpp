@@ -58,6 +58,30 @@ TEST_CASE("under a light that stays few casters are drawn, and only into the fac
     }
 }
 
+TEST_CASE("a mover that comes nearest to the light, and another way to cull, reach casters that rest", "[pipeline][cached]") {
+    LooseCubes cubes(9);
+    core::SerialExecutor executor;
+    raster::CpuBackend cpu(executor);
+    test::MapRunner plain(cpu, "shadow-map"), cached(cpu, "shadow-map-cached");
+    pipeline::Light const light = bulb_among_cubes();
+    math::dmat4 const& at = cubes.rest.world_from_mesh[cubes.loose[0]];
+    math::dvec3 const way = light.position_m - math::dvec3(at[3][0], at[3][1], at[3][2]);
+    auto const same = [&](char const* cull) {
+        std::vector<pipeline::Setting> const settings{{"resolution", "96"}, {"cull", cull}};
+        auto with_rest = settings;
+        with_rest.push_back({"rest", "2"});
+        pipeline::Frame const frame = cubes.frame(light);
+        (void)plain(frame, settings);
+        (void)cached(frame, with_rest);
+        return cached.device.texels == plain.device.texels;
+    };
+    for (int i = 0; i < 10; ++i) {
+        if (i > 4) cubes.place(0, way + math::dvec3(0.9 - 0.05 * i, 0.0, 0.0), math::dvec3(0.2));  // the depth range goes with it
+        CHECK(same("none"));
+    }
+    for (char const* const cull : {"none", "none", "none", "back", "front", "back", "none"}) CHECK(same(cull));
+}
+
 TEST_CASE("a map that is not drawn anew when it must be is found out", "[pipeline][cached]") {
     LooseCubes cubes(9);
     Course course(cubes, bulb_among_cubes(), small_maps());
