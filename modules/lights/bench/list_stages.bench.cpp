@@ -2,7 +2,8 @@
 // --benchmark_counters_tabular=true
 //
 // Microseconds, the least of many calls. `plain_floor`: count, sums and fill from known runs, one after the other;
-// `wide_floor`: the same by the lanes that the lists take, which is sort + cells + fill.
+// `wide_floor`: the same by the lanes that the lists take, which is sort + cells + fill. `roots`: the roots and
+// divisions of the spans alone.
 
 #include "setup.hpp"
 
@@ -62,6 +63,19 @@ GNOMON_WIDE_TARGET void find_spans(cull::RowGrid const& grid, cull::detail::Inpu
     cull::detail::visit_stream<true, true>(grid, in, count, sink);
 }
 
+/// The roots and divisions of the spans of some sixteens of borders, and nothing else: five and two.
+GNOMON_WIDE_TARGET void divide_only(float const* from, std::size_t sixteens) {
+    using namespace cull::detail;
+    F16 sum = wide(0.0F);
+    for (std::size_t i = 0; i < sixteens; ++i) {
+        float const* const at = from + 16 * (i % 32);
+        for (int k = 0; k < 5; ++k) sum = greatest(sum, root(wide_load(at + 16 * k)));
+        for (int k = 5; k < 7; ++k) sum = greatest(sum, wide_load(at + 16 * k) / wide_load(at + 16 * k + 16));
+    }
+    benchmark::DoNotOptimize(&sum);
+    benchmark::ClobberMemory();
+}
+
 void list_stages(benchmark::State& state) {
     if (!cull::detail::has_wide_lanes()) return state.SkipWithError("there are no wide lanes here");
     Setup const setup(state.range(0), state.range(1), false);
@@ -83,6 +97,8 @@ void list_stages(benchmark::State& state) {
             find_spans(grid, lights::detail::input_of(work), work.count, sink);
             benchmark::DoNotOptimize(sink.rows_touched);
         }) - state.counters["2_reach"]);
+        std::vector<float> const numbers(1024, 3.7F);
+        set("roots", least_us([&] { divide_only(numbers.data(), (counted.borders + 14) / 15); }));
         set("4_runs", least_us([&] {
             work.run_count = 0;
             lights::detail::find_ball_runs(grid, work);
