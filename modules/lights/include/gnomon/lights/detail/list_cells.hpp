@@ -131,14 +131,14 @@ GNOMON_WIDE_INLINE __m512i next_column(RowPart& part) noexcept {
     return _mm512_set1_epi16(static_cast<short>(at));
 }
 
-/// A row of up to 32 * `vectors` runs, which stay in registers. returns: where the lists end.
-template <bool roomy, std::uint32_t vectors, class Index>
+/// A row of up to 32 * `vectors` runs, which stay in registers, of lists that have room. returns: where they end.
+template <std::uint32_t vectors, class Index>
 GNOMON_WIDE_INLINE Index* fill_row(RowRuns const& from, RowPart row, Index* at) noexcept {
     Runs32 runs[vectors];
     for (std::uint32_t i = 0; i < vectors; ++i) runs[i].read(from, row.start + 32 * i, row.end);
     while (row.touched != 0) {
         __m512i const column = next_column(row);
-        for (std::uint32_t i = 0; i < vectors; ++i) at = put<roomy>(runs[i].over(column), runs[i].light, at);
+        for (std::uint32_t i = 0; i < vectors; ++i) at = put<true>(runs[i].over(column), runs[i].light, at);
     }
     return at;
 }
@@ -159,13 +159,17 @@ GNOMON_WIDE_INLINE Index* fill_long_row(RowRuns const& from, RowPart row, Index*
 
 template <bool roomy, class Index>
 GNOMON_WIDE_INLINE Index* fill_parts(RowRuns const& from, std::size_t first, std::size_t end, Index* at) noexcept {
-    for (RowPart const *part = from.parts.data() + first, *const last = from.parts.data() + end; part != last; ++part)
-        switch ((part->end - part->start + 31) / 32) {
-            case 1: at = fill_row<roomy, 1>(from, *part, at); break;
-            case 2: at = fill_row<roomy, 2>(from, *part, at); break;
-            case 3: at = fill_row<roomy, 3>(from, *part, at); break;
-            default: at = fill_long_row<roomy>(from, *part, at); break;
+    for (RowPart const *part = from.parts.data() + first, *const last = from.parts.data() + end; part != last; ++part) {
+        if constexpr (roomy) {  // the others are few, or in need of another number type
+            std::uint32_t const vectors = (part->end - part->start + 31) / 32;
+            if (vectors == 1) at = fill_row<1>(from, *part, at);
+            else if (vectors == 2) at = fill_row<2>(from, *part, at);
+            else if (vectors == 3) at = fill_row<3>(from, *part, at);
+            else at = fill_long_row<true>(from, *part, at);
+        } else {
+            at = fill_long_row<false>(from, *part, at);
         }
+    }
     return at;
 }
 

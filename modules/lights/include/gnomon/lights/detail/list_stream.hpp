@@ -58,9 +58,8 @@ GNOMON_WIDE_TARGET void find_ball_runs(cull::RowGrid const& grid, Workspace& wor
     sink.close();
 }
 inline void find_ball_runs(cull::RowGrid const& grid, Workspace& work) {
-    bool const small = cull::detail::has_small_tables(grid);
-    if (grid.perspective) (small ? find_ball_runs<true, true> : find_ball_runs<true, false>)(grid, work);
-    else (small ? find_ball_runs<false, true> : find_ball_runs<false, false>)(grid, work);
+    if (!grid.perspective) return find_ball_runs<false, false>(grid, work);
+    (cull::detail::has_small_tables(grid) ? find_ball_runs<true, true> : find_ball_runs<true, false>)(grid, work);
 }
 
 GNOMON_WIDE_END
