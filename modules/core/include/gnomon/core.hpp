@@ -5,4 +5,5 @@
 #include <gnomon/core/executor.hpp>
 #include <gnomon/core/id.hpp>
 #include <gnomon/core/result.hpp>
+#include <gnomon/core/sentence.hpp>
 #include <gnomon/core/strided_span.hpp>

@@ -13,6 +13,7 @@
 #include <gnomon/math/plane_set.hpp>
 #include <gnomon/math/scalar.hpp>
 #include <gnomon/math/texel.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/math/touch.hpp>
 #include <gnomon/math/vec.hpp>
 #include <gnomon/math/view.hpp>

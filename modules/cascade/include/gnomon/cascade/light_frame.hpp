@@ -4,7 +4,7 @@
 //
 // source: [CSM Scrolling, 5]
 
-#include <gnomon/cascade/detail/text.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/cascade/error.hpp>
 #include <gnomon/core/result.hpp>
 #include <gnomon/math/view.hpp>
@@ -40,7 +40,7 @@ struct LightFrame {
                                                                       math::dvec3 const& up = math::dvec3(0.0, 1.0,
                                                                                                           0.0)) {
     if (!math::is_finite(direction))
-        return core::Failure{Error::not_finite, detail::sentence({"the light's direction ", detail::text_of(direction),
+        return core::Failure{Error::not_finite, core::sentence({"the light's direction ", math::text_of(direction),
                                                                   " is not finite"})};
     if (direction == math::dvec3(0.0))
         return core::Failure{Error::no_direction,

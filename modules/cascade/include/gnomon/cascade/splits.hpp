@@ -1,7 +1,7 @@
 #pragma once
 // Where the view is divided into cascades, and how far each reaches into the next.
 
-#include <gnomon/cascade/detail/text.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/cascade/error.hpp>
 #include <gnomon/core/result.hpp>
 #include <gnomon/math/view.hpp>

@@ -6,7 +6,7 @@
 //
 // source: [Olsson 2014, Paper II, 3.1, 4.1]
 
-#include <gnomon/cluster/detail/text.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/cluster/formula/key.glsl>
 #include <gnomon/cluster/grid.hpp>
 #include <gnomon/cluster/normal_cells.hpp>
@@ -106,7 +106,7 @@ template <Key K>
 [[nodiscard]] core::Result<KeyLayout<K>, KeyError> make_key_layout(GridView const& grid, std::uint32_t normal_n = 0) {
     using B = KeyBits<K>;
     auto const failure = [](KeyError code, std::uint32_t n, char const* what, std::uint32_t most) {
-        return core::Failure{code, detail::sentence({std::to_string(n), what, std::to_string(most), " in a key of ",
+        return core::Failure{code, core::sentence({std::to_string(n), what, std::to_string(most), " in a key of ",
                                                      std::to_string(8 * sizeof(K)), " bits"})};
     };
     std::uint32_t const tiles = grid.columns() > grid.rows() ? grid.columns() : grid.rows();

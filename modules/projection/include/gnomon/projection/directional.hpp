@@ -81,8 +81,8 @@ inline Extent grown(Extent const& extent, double pad, double factor) noexcept {
     if (math::is_empty(casters)) return core::Failure{Error::empty_bounds, "there are no casters to fit a map to"};
     bool const finite = math::is_finite(casters.lo) && math::is_finite(casters.hi) && math::is_finite(config.origin_m);
     if (!finite)
-        return core::Failure{Error::not_finite, "the casters' bounds " + detail::text_of(math::to_double(casters.lo)) +
-                                                    " to " + detail::text_of(math::to_double(casters.hi)) +
+        return core::Failure{Error::not_finite, "the casters' bounds " + math::text_of(math::to_double(casters.lo)) +
+                                                    " to " + math::text_of(math::to_double(casters.hi)) +
                                                     " are not finite"};
     math::View view;
     view.lens = math::Lens::orthographic;

@@ -4,6 +4,7 @@
 #include <gnomon/core/result.hpp>
 #include <gnomon/math/bounds.hpp>
 #include <gnomon/math/scalar.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/math/vec.hpp>
 #include <gnomon/math/view.hpp>
 
@@ -23,22 +24,18 @@ enum class Error : std::uint8_t {
 
 namespace detail {
 
-inline std::string text_of(math::dvec3 const& v) {
-    return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
-}
-
 inline core::Result<core::Done, Error> validate_direction(math::dvec3 const& direction) {
     if (!math::is_finite(direction))
-        return core::Failure{Error::not_finite, "the light's direction " + text_of(direction) + " is not finite"};
+        return core::Failure{Error::not_finite, "the light's direction " + math::text_of(direction) + " is not finite"};
     if (direction == math::dvec3(0.0))
-        return core::Failure{Error::no_direction, "the light's direction " + text_of(direction) +
+        return core::Failure{Error::no_direction, "the light's direction " + math::text_of(direction) +
                                                       " has no length: give one, such as (0, -1, 0)"};
     return core::Done{};
 }
 
 inline core::Result<core::Done, Error> validate_position(math::dvec3 const& position_m) {
     if (!math::is_finite(position_m))
-        return core::Failure{Error::not_finite, "the light's position " + text_of(position_m) + " is not finite"};
+        return core::Failure{Error::not_finite, "the light's position " + math::text_of(position_m) + " is not finite"};
     return core::Done{};
 }
 
@@ -51,8 +48,8 @@ inline core::Result<core::Done, Error> validate_map(math::ivec2 const& size_px) 
 
 inline core::Result<core::Done, Error> validate_depth(double near_m, double far_m) {
     if (!(near_m > 0.0 && near_m < far_m && math::is_finite(near_m)))
-        return core::Failure{Error::bad_depth_range, "near " + std::to_string(near_m) + " m and far " +
-                                                         std::to_string(far_m) + " m: a light needs 0 < near < far"};
+        return core::Failure{Error::bad_depth_range, core::sentence({"near ", math::text_of(near_m), " m and far ", math::text_of(far_m),
+                                                                       " m: a light needs 0 < near < far"})};
     return core::Done{};
 }
 

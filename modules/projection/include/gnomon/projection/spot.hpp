@@ -35,7 +35,7 @@ inline constexpr double widest_spot_rad = 1.5533430342749532;
     if (!(config.outer_cone_rad > 0.0 && config.outer_cone_rad < widest_spot_rad)) {
         constexpr double degrees = 57.295779513082323;
         return core::Failure{Error::bad_cone, "the spot's half angle is " +
-                                                  std::to_string(config.outer_cone_rad * degrees) +
+                                                  math::text_of(config.outer_cone_rad * degrees) +
                                                   " degrees; a shadow map needs above 0 and below 89"};
     }
     math::View view;

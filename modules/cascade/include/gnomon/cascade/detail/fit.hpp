@@ -10,12 +10,12 @@ namespace detail {
 [[nodiscard]] inline core::Result<core::Done, Error> validate_depth(DepthConfig const& d) {
     if (d.codes < 16 || d.codes > float_codes)
         return core::Failure{Error::bad_depth,
-                             sentence({"a last depth code of ", std::to_string(d.codes), ": need 16 to 16777216"})};
+                             core::sentence({"a last depth code of ", std::to_string(d.codes), ": need 16 to 16777216"})};
     constexpr double longest = 1e12;
     if (d.range == DepthRange::fixed_length &&
         !(d.length_m >= 1e-6 && d.length_m <= longest && d.guard_m >= 0.0 && d.guard_m <= longest))
         return core::Failure{Error::bad_depth,
-                             sentence({"a depth of ", text_of(d.length_m), " m with a guard of ", text_of(d.guard_m),
+                             core::sentence({"a depth of ", math::text_of(d.length_m), " m with a guard of ", math::text_of(d.guard_m),
                                        " m: need a length of 1e-6 to 1e12 and a guard of 0 to 1e12"})};
     if (d.range != DepthRange::scene_bounds) return core::Done{};
     auto const within = [](math::dvec3 const& p) {
@@ -23,11 +23,11 @@ namespace detail {
     };
     if (!within(d.scene_lo_m) || !within(d.scene_hi_m))
         return core::Failure{Error::not_finite,
-                             sentence({"the scene's bounds ", text_of(d.scene_lo_m), " to ", text_of(d.scene_hi_m),
+                             core::sentence({"the scene's bounds ", math::text_of(d.scene_lo_m), " to ", math::text_of(d.scene_hi_m),
                                        " must lie within 1e12 m of the anchor"})};
     if (!(d.scene_lo_m.x <= d.scene_hi_m.x && d.scene_lo_m.y <= d.scene_hi_m.y && d.scene_lo_m.z <= d.scene_hi_m.z))
-        return core::Failure{Error::bad_depth, sentence({"the scene's bounds ", text_of(d.scene_lo_m), " to ",
-                                                         text_of(d.scene_hi_m), " hold nothing"})};
+        return core::Failure{Error::bad_depth, core::sentence({"the scene's bounds ", math::text_of(d.scene_lo_m), " to ",
+                                                         math::text_of(d.scene_hi_m), " hold nothing"})};
     return core::Done{};
 }
 
@@ -39,15 +39,15 @@ inline core::Result<core::Done, Error> validate(FitConfig const& c) {
     if (!positive || usable_px(c) < 1)
         return core::Failure{
             Error::bad_size,
-            detail::sentence({"a map of ", std::to_string(c.size_px), " texels with a filter of ",
+            core::sentence({"a map of ", std::to_string(c.size_px), " texels with a filter of ",
                               std::to_string(c.filter_px), " and a guard band of ", std::to_string(c.guard_px),
                               ": need at most ", std::to_string(max_map_px),
                               ", and a texel left between twice filter, guard and one"})};
     bool const power = (c.texel_steps & (c.texel_steps - 1)) == 0 && c.texel_steps <= (1U << 20U);
     if (!power || !(c.hold >= 0.0 && c.hold <= 1.0))
         return core::Failure{Error::bad_fraction,
-                             detail::sentence({std::to_string(c.texel_steps),
-                                               " texel sizes for each doubling, held for ", detail::text_of(c.hold),
+                             core::sentence({std::to_string(c.texel_steps),
+                                               " texel sizes for each doubling, held for ", math::text_of(c.hold),
                                                ": need 0 or a power of two up to 2^20, and a fraction in [0, 1]"})};
     return detail::validate_depth(c.depth);
 }

@@ -29,27 +29,27 @@ namespace detail {
 [[nodiscard]] inline core::Result<VisibleRange, Error> validate_splits(SplitConfig const& config,
                                                                        math::View const& camera) {
     if (config.count < 1 || config.count > max_cascades)
-        return core::Failure{Error::bad_count, sentence({std::to_string(config.count), " cascades: need 1 to ",
+        return core::Failure{Error::bad_count, core::sentence({std::to_string(config.count), " cascades: need 1 to ",
                                                          std::to_string(max_cascades)})};
     auto const is_part = [](double x) { return x >= 0.0 && x <= 1.0; };
     if (!is_part(config.lambda) || !is_part(config.overlap) || !is_part(config.fade))
         return core::Failure{Error::bad_fraction,
-                             sentence({"lambda ", text_of(config.lambda), ", overlap ", text_of(config.overlap),
-                                       " and fade ", text_of(config.fade), ": each must be in [0, 1]"})};
+                             core::sentence({"lambda ", math::text_of(config.lambda), ", overlap ", math::text_of(config.overlap),
+                                       " and fade ", math::text_of(config.fade), ": each must be in [0, 1]"})};
     double const near_m = config.near_m == 0.0 ? camera.near_m : config.near_m;
     double const last_m = config.scheme == SplitScheme::given ? config.ends_m[config.count - 1] : config.far_m;
     double const far_m = last_m == 0.0 ? camera.far_m : last_m;
     if (!math::is_finite(near_m) || !math::is_finite(far_m))
         return core::Failure{Error::not_finite,
-                             sentence({"cascades from ", text_of(near_m), " m to ", text_of(far_m),
+                             core::sentence({"cascades from ", math::text_of(near_m), " m to ", math::text_of(far_m),
                                        " m: both must be finite; a view without end needs a shadow distance far_m"})};
     if (!(near_m < far_m))
-        return core::Failure{Error::bad_range, sentence({"cascades from ", text_of(near_m), " m to ", text_of(far_m),
+        return core::Failure{Error::bad_range, core::sentence({"cascades from ", math::text_of(near_m), " m to ", math::text_of(far_m),
                                                          " m: need near < far"})};
     bool const logarithmic = config.scheme == SplitScheme::logarithmic || config.scheme == SplitScheme::practical;
     bool const behind = camera.lens == math::Lens::perspective && !(near_m >= 0.0);
     if (behind || (logarithmic && !(near_m > 0.0)))
-        return core::Failure{Error::bad_range, sentence({"cascades from ", text_of(near_m),
+        return core::Failure{Error::bad_range, core::sentence({"cascades from ", math::text_of(near_m),
                                                          " m: this scheme or camera needs a near depth above 0"})};
     return VisibleRange{near_m, far_m};
 }
@@ -81,8 +81,8 @@ inline core::Result<Splits, Error> make_splits(SplitConfig const& config, math::
         if (!(end_m > previous_m && end_m <= range->far_m))
             return core::Failure{
                 Error::bad_range,
-                detail::sentence({"cascade ", std::to_string(k), " from ", detail::text_of(previous_m), " m to ",
-                                  detail::text_of(end_m), " m: each end must lie beyond the one before"})};
+                core::sentence({"cascade ", std::to_string(k), " from ", math::text_of(previous_m), " m to ",
+                                  math::text_of(end_m), " m: each end must lie beyond the one before"})};
         double const blend_m = end_m - (last ? config.fade : config.overlap) * (end_m - previous_m);
         splits.of[k] = {begin_m, end_m, blend_m};
         begin_m = blend_m;

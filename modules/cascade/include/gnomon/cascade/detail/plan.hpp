@@ -14,22 +14,22 @@ namespace detail {
                         math::is_finite(camera.back) && math::is_finite(anchor_m);
     if (!finite)
         return core::Failure{Error::not_finite,
-                             sentence({"the camera's eye ", text_of(camera.eye_m), ", its axes and the anchor ",
-                                       text_of(anchor_m), " must be finite"})};
+                             core::sentence({"the camera's eye ", math::text_of(camera.eye_m), ", its axes and the anchor ",
+                                       math::text_of(anchor_m), " must be finite"})};
     bool const wide = w.right - w.left > 0.0 && w.top - w.bottom > 0.0 && math::is_finite(w.right) &&
                       math::is_finite(w.left) && math::is_finite(w.top) && math::is_finite(w.bottom);
     if (!wide)
         return core::Failure{Error::bad_range,
-                             sentence({"the camera's window from ", text_of(w.left), " to ", text_of(w.right), " and ",
-                                       text_of(w.bottom), " to ", text_of(w.top), " has no width or height"})};
+                             core::sentence({"the camera's window from ", math::text_of(w.left), " to ", math::text_of(w.right), " and ",
+                                       math::text_of(w.bottom), " to ", math::text_of(w.top), " has no width or height"})};
     return core::Done{};
 }
 
 [[nodiscard]] inline core::Failure<Error> too_far(std::uint32_t k, math::View const& camera, CascadePlan const& c) {
     return {Error::too_far,
-            sentence({"cascade ", std::to_string(k), ", ", text_of(c.extent_m), " m across, with texels of ",
-                      text_of(c.volume.texel_m), " m and depths of ", text_of(c.volume.depth_unit_m),
-                      " m is too far from the anchor for the camera at ", text_of(camera.eye_m),
+            core::sentence({"cascade ", std::to_string(k), ", ", math::text_of(c.extent_m), " m across, with texels of ",
+                      math::text_of(c.volume.texel_m), " m and depths of ", math::text_of(c.volume.depth_unit_m),
+                      " m is too far from the anchor for the camera at ", math::text_of(camera.eye_m),
                       ": move the anchor nearer, or see to a view of 1e-9 to 1e12 m"})};
 }
 

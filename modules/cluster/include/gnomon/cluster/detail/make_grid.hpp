@@ -1,7 +1,7 @@
 #pragma once
 // The checked way to make a grid; see grid.hpp.
 
-#include <gnomon/cluster/detail/text.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/cluster/grid.hpp>
 #include <gnomon/math/scalar.hpp>
 
@@ -51,15 +51,15 @@ struct GridAxis {
     bool const finite = math::is_finite(w.left) && math::is_finite(w.right) && math::is_finite(w.bottom) && math::is_finite(w.top);
     if (!finite || !(w.left < w.right) || !(w.bottom < w.top))
         return core::Failure{GridError::bad_view,
-                             sentence({"a window from ", text_of(w.left), " to ", text_of(w.right), " and from ",
-                                       text_of(w.bottom), " to ", text_of(w.top), ": each must have an extent"})};
+                             core::sentence({"a window from ", math::text_of(w.left), " to ", math::text_of(w.right), " and from ",
+                                       math::text_of(w.bottom), " to ", math::text_of(w.top), ": each must have an extent"})};
     auto const in_range = [](std::int32_t n) { return n >= 1 && n <= 65536; };
     if (!in_range(view.size_px.x) || !in_range(view.size_px.y))
         return core::Failure{GridError::bad_view,
-                             sentence({"an image of ", std::to_string(view.size_px.x), "x", std::to_string(view.size_px.y),
+                             core::sentence({"an image of ", std::to_string(view.size_px.x), "x", std::to_string(view.size_px.y),
                                        " pixels: need 1 to 65536 a side"})};
     if (!in_range(tile_px.x) || !in_range(tile_px.y))
-        return core::Failure{GridError::bad_tile, sentence({"tiles of ", std::to_string(tile_px.x), "x",
+        return core::Failure{GridError::bad_tile, core::sentence({"tiles of ", std::to_string(tile_px.x), "x",
                                                             std::to_string(tile_px.y), " pixels: need 1 to 65536 a side"})};
     return core::Done{};
 }
@@ -68,7 +68,7 @@ struct GridAxis {
     auto const first = static_cast<double>(slices.planes_m().front());
     auto const last = static_cast<double>(slices.planes_m().back());
     if (view.lens == math::Lens::perspective && !(first >= 1e-12))
-        return core::Failure{GridError::bad_depth, sentence({"the first plane is at ", text_of(first),
+        return core::Failure{GridError::bad_depth, core::sentence({"the first plane is at ", math::text_of(first),
                                                              " m; with perspective it must be at 1e-12 m or beyond"})};
     // Planes are rounded to float, near and far are not.
     double const reach = math::is_finite(view.far_m) ? std::abs(view.far_m) : 0.0;
@@ -77,8 +77,8 @@ struct GridAxis {
     bool const ends = !math::is_finite(last) || last >= view.far_m - std::max(1e-6 * reach, tolerance);
     if (!begins || !ends)
         return core::Failure{GridError::uncovered,
-                             sentence({"slices from ", text_of(first), " m to ", text_of(last), " m do not cover the view's ",
-                                       text_of(view.near_m), " m to ", text_of(view.far_m),
+                             core::sentence({"slices from ", math::text_of(first), " m to ", math::text_of(last), " m do not cover the view's ",
+                                       math::text_of(view.near_m), " m to ", math::text_of(view.far_m),
                                        " m: change either, or say open_end"})};
     return core::Done{};
 }
@@ -123,10 +123,10 @@ inline GridResult make_grid(math::View const& view, math::ivec2 const& tile_px, 
                           detail::axis_of(-w.top, -w.bottom, view.size_px.y, tile_px.y)};
     double const clusters = static_cast<double>(maker.x.tiles) * maker.y.tiles * slices.count();
     if (clusters > 4294967295.0)
-        return core::Failure{GridError::too_many, detail::sentence({detail::text_of(clusters), " clusters: need less than 2^32"})};
+        return core::Failure{GridError::too_many, core::sentence({math::text_of(clusters), " clusters: need less than 2^32"})};
     if (!(maker.border_px() <= 0.0625))
         return core::Failure{GridError::unresolved,
-                             detail::sentence({"floats err by ", detail::text_of(maker.border_px()),
+                             core::sentence({"floats err by ", math::text_of(maker.border_px()),
                                                " pixels in this window: need at most 1/16"})};
     return maker.make(std::move(slices));
 }
@@ -134,7 +134,7 @@ inline GridResult make_grid(math::View const& view, math::ivec2 const& tile_px, 
 inline SliceResult make_cubical_slices(math::View const& view, std::int32_t tile_y_px, double end_m) {
     if (view.size_px.y < 1 || tile_y_px < 1)
         return core::Failure{SliceError::bad_field,
-                             detail::sentence({"an image ", std::to_string(view.size_px.y), " pixels high in tiles of ",
+                             core::sentence({"an image ", std::to_string(view.size_px.y), " pixels high in tiles of ",
                                                std::to_string(tile_y_px), ": need at least 1 each"})};
     double const extent = view.window.top - view.window.bottom;
     double const far_m = std::min(end_m, view.far_m);

@@ -1,7 +1,7 @@
 #pragma once
 // The checked ways to make depth slices; see slices.hpp.
 
-#include <gnomon/cluster/detail/text.hpp>
+#include <gnomon/math/text.hpp>
 #include <gnomon/cluster/slices.hpp>
 #include <gnomon/math/scalar.hpp>
 
@@ -64,9 +64,9 @@ namespace detail {
     for (std::size_t k = 1; k < planes_m.size(); ++k)
         if (!(planes_m[k - 1] < planes_m[k]))
             return core::Failure{SliceError::too_thin,
-                                 sentence({"planes ", std::to_string(k - 1), " and ", std::to_string(k), " are ",
-                                           text_of(static_cast<double>(planes_m[k - 1])), " m and ",
-                                           text_of(static_cast<double>(planes_m[k])),
+                                 core::sentence({"planes ", std::to_string(k - 1), " and ", std::to_string(k), " are ",
+                                           math::text_of(static_cast<double>(planes_m[k - 1])), " m and ",
+                                           math::text_of(static_cast<double>(planes_m[k])),
                                            " m; each must lie beyond the one before: make fewer slices"})};
     return tabulated(std::move(planes_m));
 }
@@ -82,10 +82,10 @@ struct RangeRule {
     bool const bad_far = math::is_nan(far_m) || (far_m > largest && !(rule.infinite_far && !math::is_finite(far_m)));
     if (!math::is_finite(near_m) || near_m > largest || near_m < -largest || bad_far)
         return core::Failure{SliceError::not_finite,
-                             sentence({"slices from ", text_of(near_m), " m to ", text_of(far_m),
+                             core::sentence({"slices from ", math::text_of(near_m), " m to ", math::text_of(far_m),
                                        " m: each must be a finite float; for a view without end say open_end"})};
     if (!(near_m < far_m) || (rule.above_zero && !(near_m >= static_cast<double>(std::numeric_limits<float>::min()))))
-        return core::Failure{SliceError::bad_range, sentence({"slices from ", text_of(near_m), " m to ", text_of(far_m),
+        return core::Failure{SliceError::bad_range, core::sentence({"slices from ", math::text_of(near_m), " m to ", math::text_of(far_m),
                                                               rule.above_zero ? " m: need 0 < near < far"
                                                                               : " m: need near < far"})};
     return core::Done{};
@@ -94,7 +94,7 @@ struct RangeRule {
 [[nodiscard]] inline core::Result<core::Done, SliceError> validate_count(std::uint32_t count, std::uint32_t least) {
     if (count >= least && count <= max_slices) return core::Done{};
     return core::Failure{SliceError::bad_count,
-                         sentence({std::to_string(count), " slices: need ", std::to_string(least), " to ",
+                         core::sentence({std::to_string(count), " slices: need ", std::to_string(least), " to ",
                                    std::to_string(max_slices)})};
 }
 
@@ -120,13 +120,13 @@ inline void end_with(std::vector<float>& planes_m, bool open_end) {
 
 inline SliceResult make_slices(std::span<float const> planes_m) {
     if (planes_m.size() < 2 || planes_m.size() > std::size_t{max_slices} + 1)
-        return core::Failure{SliceError::bad_count, detail::sentence({std::to_string(planes_m.size()), " planes: need 2 to ",
+        return core::Failure{SliceError::bad_count, core::sentence({std::to_string(planes_m.size()), " planes: need 2 to ",
                                                                       std::to_string(max_slices + 1)})};
     for (std::size_t k = 0; k < planes_m.size(); ++k) {
         bool const may_be_infinite = k + 1 == planes_m.size() && !math::is_nan(planes_m[k]);
         if (!math::is_finite(planes_m[k]) && !may_be_infinite)
-            return core::Failure{SliceError::not_finite, detail::sentence({"plane ", std::to_string(k), " is ",
-                                                                           detail::text_of(static_cast<double>(planes_m[k])),
+            return core::Failure{SliceError::not_finite, core::sentence({"plane ", std::to_string(k), " is ",
+                                                                           math::text_of(static_cast<double>(planes_m[k])),
                                                                            "; only the last may be infinite"})};
     }
     return detail::from_planes({planes_m.begin(), planes_m.end()});
@@ -136,7 +136,7 @@ inline SliceResult make_slices(ExponentialSlices const& config) {
     if (auto range = detail::validate_range(config.near_m, config.far_m, {}); !range) return std::move(range).failure();
     if (!math::is_finite(config.extent_y) || !(config.extent_y > 0.0) || config.tiles_y == 0)
         return core::Failure{SliceError::bad_field,
-                             detail::sentence({"a field of ", detail::text_of(config.extent_y), " in ",
+                             core::sentence({"a field of ", math::text_of(config.extent_y), " in ",
                                                std::to_string(config.tiles_y),
                                                " tiles: need tan up + tan down above 0, and a tile"})};
     double const growth = 1.0 + config.extent_y / config.tiles_y;

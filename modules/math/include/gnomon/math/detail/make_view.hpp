@@ -1,11 +1,10 @@
 #pragma once
 // The checked ways to make a view; see view.hpp.
 
+#include <gnomon/math/text.hpp>
 #include <gnomon/math/view.hpp>
 
 #include <cmath>
-#include <cstdio>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,40 +13,23 @@ namespace gnomon::math {
 
 namespace detail {
 
-inline std::string text_of(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", x);
-    return text;
-}
-
-/// One sentence of its parts. (A sum of strings is what GCC 12 warns of without reason.)
-inline std::string sentence(std::initializer_list<std::string_view> parts) {
-    std::string text;
-    for (std::string_view const part : parts) text.append(part);
-    return text;
-}
-
-inline std::string text_of(dvec3 const& v) {
-    return sentence({"(", text_of(v.x), ", ", text_of(v.y), ", ", text_of(v.z), ")"});
-}
-
 /// The first thing wrong with what both kinds of view share, or success.
 inline core::Result<core::Done, ViewError> validate_pose(dvec3 const& eye_m, dvec3 const& target_m, ivec2 const& size_px) {
     if (!is_finite(eye_m) || !is_finite(target_m))
-        return core::Failure{ViewError::not_finite, sentence({"eye ", text_of(eye_m), " and target ", text_of(target_m),
+        return core::Failure{ViewError::not_finite, core::sentence({"eye ", text_of(eye_m), " and target ", text_of(target_m),
                                                               " must be finite numbers of metres"})};
     if (eye_m == target_m)
         return core::Failure{ViewError::no_direction,
-                             sentence({"eye and target are the same point ", text_of(eye_m), ": move one of them"})};
+                             core::sentence({"eye and target are the same point ", text_of(eye_m), ": move one of them"})};
     if (size_px.x < 1 || size_px.y < 1)
         return core::Failure{ViewError::empty_image,
-                             sentence({"the image is ", std::to_string(size_px.x), "x", std::to_string(size_px.y),
+                             core::sentence({"the image is ", std::to_string(size_px.x), "x", std::to_string(size_px.y),
                                        " pixels; it needs at least 1x1"})};
     return core::Done{};
 }
 
 inline core::Failure<ViewError> bad_depth_range(double near_m, double far_m, std::string_view rule) {
-    return {ViewError::bad_depth_range, sentence({"near ", text_of(near_m), " m and far ", text_of(far_m), " m: ", rule})};
+    return {ViewError::bad_depth_range, core::sentence({"near ", text_of(near_m), " m and far ", text_of(far_m), " m: ", rule})};
 }
 
 }  // namespace detail
@@ -80,7 +62,7 @@ inline core::Result<View, ViewError> make_perspective(PerspectiveConfig const& c
     constexpr double pi = 3.14159265358979323846;
     if (!(config.fov_y_rad > 0.0 && config.fov_y_rad < pi))
         return core::Failure{ViewError::bad_field,
-                             detail::sentence({"a vertical field of view of ", detail::text_of(config.fov_y_rad * 180.0 / pi),
+                             core::sentence({"a vertical field of view of ", text_of(config.fov_y_rad * 180.0 / pi),
                                                " degrees; it must be above 0 and below 180"})};
     if (!(config.near_m > 0.0 && config.near_m < config.far_m && is_finite(config.near_m)))
         return detail::bad_depth_range(config.near_m, config.far_m, "a perspective view needs 0 < near < far");
@@ -103,9 +85,9 @@ inline core::Result<View, ViewError> make_orthographic(OrthographicConfig const&
     bool const finite = is_finite(w.left) && is_finite(w.right) && is_finite(w.bottom) && is_finite(w.top);
     if (!finite || !(w.left < w.right && w.bottom < w.top))
         return core::Failure{ViewError::bad_field,
-                             detail::sentence({"an orthographic window from (", detail::text_of(w.left), ", ",
-                                               detail::text_of(w.bottom), ") to (", detail::text_of(w.right), ", ",
-                                               detail::text_of(w.top), ") m; it needs an area above 0"})};
+                             core::sentence({"an orthographic window from (", text_of(w.left), ", ",
+                                               text_of(w.bottom), ") to (", text_of(w.right), ", ",
+                                               text_of(w.top), ") m; it needs an area above 0"})};
     if (!(config.near_m < config.far_m && is_finite(config.near_m) && is_finite(config.far_m)))
         return detail::bad_depth_range(config.near_m, config.far_m,
                                        "an orthographic view needs near < far, both finite");
