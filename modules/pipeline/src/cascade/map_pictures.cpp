@@ -46,13 +46,25 @@ std::vector<float> depths_of(std::span<std::byte const> bytes, MapFormat const& 
     return depths;
 }
 
+bool is_in(cascade::TexelRect const& r, std::int32_t x, std::int32_t y) noexcept {
+    return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
+}
+
+/// Texels of a map that one pixel stands for, on a side.
+std::int32_t step_of(MapFormat const& format) noexcept { return (format.size_px + most_px - 1) / most_px; }
+
 /// One map at its three points.
 struct Column {
+    std::int32_t size_px, step;
+    cascade::ExposedRects exposed;
     std::vector<float> kept, content, finished;
     float nearest = 0.0F, farthest = 1.0F;  ///< Of what was drawn: the picture's contrast.
 
     Column(MapSteps const& steps, MapFormat const& format)
-        : kept(depths_of(steps.kept, format)),
+        : size_px(format.size_px),
+          step(step_of(format)),
+          exposed(steps.exposed),
+          kept(depths_of(steps.kept, format)),
           content(depths_of(steps.content.empty() ? steps.finished : steps.content, format)),
           finished(depths_of(steps.finished, format)) {
         nearest = std::numeric_limits<float>::infinity();
@@ -65,12 +77,19 @@ struct Column {
         if (!(nearest < farthest)) nearest = 0.0F, farthest = 1.0F;
     }
 
-    [[nodiscard]] Texel at(int row, std::size_t i) const noexcept {
+    [[nodiscard]] bool is_exposed(std::int32_t x, std::int32_t y) const noexcept {
+        for (std::int32_t k = 0; k < exposed.count; ++k)
+            if (is_in(exposed.rects[static_cast<std::size_t>(k)], x, y)) return true;
+        return false;
+    }
+    [[nodiscard]] Texel at(int row, std::int32_t x, std::int32_t y) const noexcept {
+        std::size_t const i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_px) + static_cast<std::size_t>(x);
         auto const plain = [](float depth, Shows shows) { return Texel{depth < 1.0F ? shows : Shows::nothing, depth}; };
         if (row == 0) return plain(finished[i], finished[i] != content[i] ? Shows::told : Shows::caster);
         if (row == 1) return plain(kept[i], Shows::caster);
         if (content[i] != kept[i]) return {Shows::told, content[i]};
-        return kept[i] < 1.0F ? Texel{Shows::kept, kept[i]} : Texel{Shows::nothing, 1.0F};
+        if (kept[i] < 1.0F) return {Shows::kept, kept[i]};
+        return {is_exposed(x, y) ? Shows::bare : Shows::nothing, 1.0F};
     }
     /// Grey level of a depth: dark near, lighter far, never as light as empty.
     [[nodiscard]] float level(float depth) const noexcept {
@@ -90,19 +109,13 @@ math::vec3 color_of(int row, Texel const& texel, float level) noexcept {
     return (row == 0 ? amber : red) * (0.45F + 0.8F * level);
 }
 
-bool is_in(cascade::TexelRect const& r, std::int32_t x, std::int32_t y) noexcept {
-    return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
-}
-
-/// The most telling of the texels that pixel (x, y) of a cell stands for, `step` a side.
-Texel shown_at(MapSteps const& steps, Column const& column, std::int32_t size, std::int32_t step, int row, math::ivec2 pixel) {
+/// The most telling of the texels that a pixel of a cell stands for.
+Texel shown_at(Column const& column, int row, math::ivec2 pixel) {
     Texel best;
-    for (std::int32_t y = pixel.y * step; y < std::min(size, (pixel.y + 1) * step); ++y)
-        for (std::int32_t x = pixel.x * step; x < std::min(size, (pixel.x + 1) * step); ++x) {
-            Texel texel = column.at(row, static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x));
-            bool bare = false;
-            for (std::int32_t k = 0; k < steps.exposed.count; ++k) bare = bare || is_in(steps.exposed.rects[static_cast<std::size_t>(k)], x, y);
-            if (row == 2 && texel.shows == Shows::nothing && bare) texel.shows = Shows::bare;
+    std::int32_t const step = column.step;
+    for (std::int32_t y = pixel.y * step; y < std::min(column.size_px, (pixel.y + 1) * step); ++y)
+        for (std::int32_t x = pixel.x * step; x < std::min(column.size_px, (pixel.x + 1) * step); ++x) {
+            Texel const texel = column.at(row, x, y);
             bool const more = texel.shows > best.shows || (texel.shows == best.shows && texel.depth < best.depth);
             if (more) best = texel;
         }
@@ -118,7 +131,7 @@ void note(Verbs& verbs, backend::TargetId target, std::uint32_t layer, MapFormat
 }
 
 Image picture_of_maps(std::span<MapSteps const> maps, MapFormat const& format) {
-    std::int32_t const step = (format.size_px + most_px - 1) / most_px;
+    std::int32_t const step = step_of(format);
     std::int32_t const cell = (format.size_px + step - 1) / step;
     auto const pitch = cell + gap_px;
     Image image;
@@ -129,7 +142,7 @@ Image picture_of_maps(std::span<MapSteps const> maps, MapFormat const& format) {
         for (int row = 0; row < 3; ++row)
             for (std::int32_t y = 0; y < cell; ++y)
                 for (std::int32_t x = 0; x < cell; ++x) {
-                    Texel const texel = shown_at(maps[k], column, format.size_px, step, row, math::ivec2(x, y));
+                    Texel const texel = shown_at(column, row, math::ivec2(x, y));
                     std::int32_t const left = gap_px + static_cast<std::int32_t>(k) * pitch + x;
                     std::int32_t const top = gap_px + row * pitch + y;
                     put(image, static_cast<std::size_t>(top) * static_cast<std::size_t>(image.size_px.x) + static_cast<std::size_t>(left),
