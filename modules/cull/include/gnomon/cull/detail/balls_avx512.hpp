@@ -27,6 +27,18 @@ struct Cut16 {
     Span16 cap, corner;
 };
 
+/// Of each lane: its ball.
+struct Ball16 {
+    F16 x, y, depth, radius_sq, tangent;
+};
+
+/// Of each lane: what cuts the ball at a border.
+struct RowCut16 {
+    F16 border_y;
+    Span16 top;
+    Cut16 near, far;
+};
+
 /// GnReadyBall
 struct Balls16 {
     F16 x, y, depth, radius_sq, tangent;
@@ -80,10 +92,10 @@ GNOMON_WIDE_INLINE Arc16 flat_arc_of(F16 x, F16 depth, F16 rest) noexcept {
 
 /// gn_border_arc
 template <bool perspective>
-GNOMON_WIDE_INLINE Arc16 border_arc(F16 x, F16 y, F16 depth, F16 radius_sq, F16 tangent, Border16 const& border) noexcept {
-    F16 const off = perspective ? (y - border.y * depth) * border.cosine : y - border.y, rest = radius_sq - off * off;
-    if constexpr (!perspective) return flat_arc_of(x, depth, rest);
-    return arc_of(x, (y * border.y + depth) * border.cosine, rest, tangent, border);
+GNOMON_WIDE_INLINE Arc16 border_arc(Ball16 const& b, Border16 const& border) noexcept {
+    F16 const off = perspective ? (b.y - border.y * b.depth) * border.cosine : b.y - border.y, rest = b.radius_sq - off * off;
+    if constexpr (!perspective) return flat_arc_of(b.x, b.depth, rest);
+    return arc_of(b.x, (b.y * border.y + b.depth) * border.cosine, rest, b.tangent, border);
 }
 
 /// gn_cap_arc
@@ -117,10 +129,10 @@ GNOMON_WIDE_INLINE void make_ready(F16 x, F16 y, F16 depth, F16 given, Balls16& 
 
 /// gn_plane_cut and gn_border_corner
 template <bool perspective>
-GNOMON_WIDE_INLINE Cut16 cut_of(F16 x, F16 y, F16 depth, F16 radius_sq, F16 border_y, F16 plane, F16 inverse) noexcept {
-    F16 const off = plane - depth, rest = radius_sq - off * off, scale = perspective ? plane : wide(1.0F);
-    F16 const beside = border_y * scale - y;
-    return {plane, scale, rest, rest >= wide(0.0F), corner(x, rest, inverse), corner(x, rest - beside * beside, inverse)};
+GNOMON_WIDE_INLINE Cut16 cut_of(Ball16 const& b, F16 border_y, F16 plane, F16 inverse) noexcept {
+    F16 const off = plane - b.depth, rest = b.radius_sq - off * off, scale = perspective ? plane : wide(1.0F);
+    F16 const beside = border_y * scale - b.y;
+    return {plane, scale, rest, rest >= wide(0.0F), corner(b.x, rest, inverse), corner(b.x, rest - beside * beside, inverse)};
 }
 
 /// gn_ends and gn_within
@@ -133,7 +145,8 @@ GNOMON_WIDE_INLINE Span16 within(Arc16 const& arc, Cut16 const& near, Cut16 cons
 }
 
 /// gn_slice_cap, gn_joined, and the bounds of the whole ball.
-GNOMON_WIDE_INLINE Span16 join(Balls16 const& b, I16 ball, F16 y, F16 border_y, Span16 const& top, Cut16 const& near, Cut16 const& far) noexcept {
+GNOMON_WIDE_INLINE Span16 join(Balls16 const& b, I16 ball, F16 y, RowCut16 const& cut) noexcept {
+    auto const& [border_y, top, near, far] = cut;
     F16 const unit = lookup(b.cap.unit, ball), near_at = near.depth * unit, far_at = far.depth * unit, next_y = next_lane(border_y);
     F16 const low_at = lookup(b.cap.low_at, ball), high_at = lookup(b.cap.high_at, ball);
     M16 const low_near = near.crosses & (low_at <= near_at), low_far = far.crosses & (low_at >= far_at);
@@ -152,14 +165,13 @@ GNOMON_WIDE_INLINE Span16 join(Balls16 const& b, I16 ball, F16 y, F16 border_y, 
 /// The span of each lane's row.
 template <bool perspective, bool small>
 GNOMON_WIDE_INLINE Span16 row_spans(Tables16 const& t, Balls16 const& b, Lanes16 const& at) noexcept {
-    F16 const x = lookup(b.x, at.ball), y = lookup(b.y, at.ball), depth = lookup(b.depth, at.ball), radius_sq = lookup(b.radius_sq, at.ball);
-    F16 const border_y = lookup<small>(t.y, at.border);
-    I16 const far_slice = at.slice + wide(1U);
-    Cut16 const near = cut_of<perspective>(x, y, depth, radius_sq, border_y, lookup<small>(t.depth_m, at.slice), lookup<small>(t.inverse, at.slice));
-    Cut16 const far = cut_of<perspective>(x, y, depth, radius_sq, border_y, lookup<small>(t.depth_m, far_slice), lookup<small>(t.inverse, far_slice));
-    Arc16 const arc = border_arc<perspective>(x, y, depth, radius_sq, lookup(b.tangent, at.ball),
-                                              {border_y, lookup<small>(t.secant, at.border), lookup<small>(t.cosine, at.border)});
-    return join(b, at.ball, y, border_y, within(arc, near, far), near, far);
+    Ball16 const ball{lookup(b.x, at.ball), lookup(b.y, at.ball), lookup(b.depth, at.ball), lookup(b.radius_sq, at.ball), lookup(b.tangent, at.ball)};
+    F16 const y = lookup<small>(t.y, at.border);
+    I16 const next = at.slice + wide(1U);
+    Cut16 const near = cut_of<perspective>(ball, y, lookup<small>(t.depth_m, at.slice), lookup<small>(t.inverse, at.slice));
+    Cut16 const far = cut_of<perspective>(ball, y, lookup<small>(t.depth_m, next), lookup<small>(t.inverse, next));
+    Arc16 const arc = border_arc<perspective>(ball, {y, lookup<small>(t.secant, at.border), lookup<small>(t.cosine, at.border)});
+    return join(b, at.ball, ball.y, {y, within(arc, near, far), near, far});
 }
 
 }  // namespace gnomon::cull::detail
