@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,11 @@ class Stopwatch {
   private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// Whether two directions of any length are at most a small angle apart: by the chord, which is nearly the angle.
+[[nodiscard]] inline bool turned_at_most(math::dvec3 const& a, math::dvec3 const& b, double degrees) {
+    return glm::length(glm::normalize(a) - glm::normalize(b)) <= degrees * (std::numbers::pi / 180.0);
+}
 
 /// The draws of a frame's geometry. Solid triangles go in as few as possible, masked ones by their texture.
 struct DrawList {

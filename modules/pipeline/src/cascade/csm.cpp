@@ -65,8 +65,7 @@ CascadeOptions read_options(Params const& params, CascadeReuse reuse, Frame cons
 /// Where the sun is to be for its maps: where it was for them, if it turned no farther than `turn` since.
 math::dvec3 held_direction(math::dvec3 const& held, math::dvec3 const& now, double turn_deg) {
     if (turn_deg <= 0.0 || held == math::dvec3(0.0)) return now;
-    double const turned = glm::length(glm::normalize(now) - glm::normalize(held));  // the angle, nearly
-    return turned <= turn_deg * 0.017453292519943295 ? held : now;
+    return turned_at_most(held, now, turn_deg) ? held : now;
 }
 
 shadow::LookupConfig lookup_of(Params const& params) {

@@ -131,14 +131,14 @@ void CachedLights::tell_changes(ShadowMaps const& shadow, LightState const& now,
 
 LightPlace CachedLights::place(Frame const& frame, LightThresholds const& thresholds) const {
     LightPlace const now = place_of(frame);
-    if (other_objects_ || maps_.empty() || (thresholds.move_m <= 0.0 && thresholds.turn_rad <= 0.0)) return now;
+    if (other_objects_ || maps_.empty() || (thresholds.move_m <= 0.0 && thresholds.turn_deg <= 0.0)) return now;
     // Posed as before, is it the same light?
     Light as_before = now.light;
     as_before.position_m = at_.light.position_m;
     as_before.direction = at_.light.direction;
     if (change_between({at_.light, {}}, {as_before, {}})) return now;
     bool const near = glm::length(now.light.position_m - at_.light.position_m) <= thresholds.move_m;
-    bool const along = glm::length(glm::normalize(now.light.direction) - glm::normalize(at_.light.direction)) <= thresholds.turn_rad;
+    bool const along = turned_at_most(at_.light.direction, now.light.direction, thresholds.turn_deg);
     bool const placed = now.light.kind != LightKind::directional;
     bool const aimed = now.light.kind != LightKind::point;
     if ((placed && !near) || (aimed && !along)) return now;

@@ -37,7 +37,7 @@ struct LightState {
 /// How far a light may go before its maps are drawn anew.
 struct LightThresholds {
     double move_m = 0.0;
-    double turn_rad = 0.0;  ///< Small: the distance of unit vectors.
+    double turn_deg = 0.0;  ///< Small.
 };
 
 /// What a frame asks of its maps.

@@ -70,7 +70,7 @@ Result<std::vector<StageTime>> plan_maps(Verbs& verbs, TechniqueRun const& on, S
     ShadowMaps& shadow = runs.shadow;
     runs.lights.follow(verbs, on.frame, options, casters_of(on.params), on.executor);
     Stopwatch watch;
-    LightPlace const at = runs.lights.place(on.frame, {on.params.number("move"), on.params.number("turn") * 0.017453292519943295});
+    LightPlace const at = runs.lights.place(on.frame, {on.params.number("move"), on.params.number("turn")});
     double const nearest_m = runs.nearest(*on.frame.geometry, at, on.executor);
     if (auto ok = fit_views(on.frame, at, shadow, options, nearest_m); !ok) return std::move(ok).failure();
     double const fit_ms = watch.lap_ms();
